@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/real.hpp>
+
+#include <Eigen/Core>
+
+namespace limpid {
+
+/// Whether every entry is finite. Types of signals add an overload of their own, found by argument-dependent
+/// lookup.
+/// @realtime  no allocation for fixed sizes
+template <typename Derived>
+[[nodiscard]] bool is_finite(const Eigen::DenseBase<Derived>& values) noexcept {
+  using Scalar = typename Derived::Scalar;
+  if constexpr (std::floating_point<Scalar>) {
+    return values.derived().allFinite();
+  } else {
+    bool finite = true;
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      for (Eigen::Index j = 0; j < values.cols(); ++j) finite = finite && is_finite(values.derived()(i, j));
+    }
+    return finite;
+  }
+}
+
+}  // namespace limpid

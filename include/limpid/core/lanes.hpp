@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/real.hpp>
+
+#include <Eigen/Core>
+
+namespace limpid {
+
+/// How many lanes hold `axes` axes: three axes take a fourth, idle one where the processor works on four at once.
+template <Real Scalar>
+[[nodiscard]] constexpr int lanes_for(int axes) noexcept {
+  return axes == 3 && Eigen::internal::packet_traits<Scalar>::size >= 4 ? 4 : axes;
+}
+
+/// Axes side by side, one a lane. Unaligned, so that its layout does not depend on compiler flags.
+template <int Axes, Real Scalar>
+using Lanes = Eigen::Array<Scalar, lanes_for<Scalar>(Axes), 1, Eigen::DontAlign>;
+
+/// The axes of `values`, with idle lanes, if any, holding `idle`.
+template <int Axes, Real Scalar, typename Derived>
+[[nodiscard]] Lanes<Axes, Scalar> to_lanes(const Eigen::ArrayBase<Derived>& values, const Scalar& idle) noexcept {
+  if constexpr (lanes_for<Scalar>(Axes) == Axes) {
+    return values;
+  } else {
+    return {values.derived()[0], values.derived()[1], values.derived()[2], idle};
+  }
+}
+
+}  // namespace limpid

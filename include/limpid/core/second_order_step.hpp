@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/lanes.hpp>
+#include <limpid/core/real.hpp>
+
+#include <Eigen/Core>
+
+#include <limits>
+
+namespace limpid {
+
+/// Exact step of x'' + beta x' + kappa x = f(t) over h seconds, with f linear in time over the step; each axis
+/// for itself.
+///
+///     r(h): response of x to the unit ramp f = t,   s = r' to the unit step,   g = s' to the unit impulse
+///
+/// r and s are summed as power series over a piece of h short enough for a fixed number of terms, then doubled
+/// until they span h. Nothing is divided by kappa or beta, so that zero and stiff values are alike well conditioned.
+/// @tparam Axes  number of independent axes
+/// @realtime     no allocation, no throw; `set` some 120 flops an axis, `advance` 14
+template <int Axes = 1, Real Scalar = double>
+class SecondOrderStep {
+ public:
+  using Vector = Eigen::Array<Scalar, Axes, 1>;
+
+  /// @param kappa  stiffness over mass, 1/s^2
+  /// @param beta   damping over mass, 1/s
+  /// @param h      length of the step, s, not negative; all three finite
+  void set(const Vector& kappa, const Vector& beta, const Scalar& h) noexcept {
+    const Array k = to_lanes<Axes, Scalar>(kappa, Scalar{0}), b = to_lanes<Axes, Scalar>(beta, Scalar{0});
+    Scalar size = (b.abs() * h).max(k.abs().sqrt() * h).maxCoeff();
+    Scalar piece = h;
+    int doublings = 0;
+    for (; size > longest; size /= 2, piece /= 2) ++doublings;
+    sum_series(k, b, piece);
+    for (; doublings > 0; --doublings) double_length(k, b, piece);
+    position_decay_ = Scalar{1} - k * s_;
+    velocity_decay_ = Scalar{1} - b * g_ - k * s_;
+    velocity_from_position_ = -k * g_;
+    rate_ = h > Scalar{0} ? Scalar{1} / h : Scalar{0};
+  }
+
+  /// Takes (x, v) from the start of the step to its end.
+  /// @param f0, f1  force over mass at the start and at the end, m/s^2
+  void advance(Vector& x, Vector& v, const Vector& f0, const Vector& f1) const noexcept {
+    const Array x0 = lanes(x), v0 = lanes(v), f = lanes(f0), slope = (lanes(f1) - f) * rate_;
+    x = (position_decay_ * x0 + g_ * v0 + s_ * f + r_ * slope).template head<Axes>();
+    v = (velocity_from_position_ * x0 + velocity_decay_ * v0 + g_ * f + s_ * slope).template head<Axes>();
+  }
+
+  [[nodiscard]] Vector impulse_response() const noexcept { return g_.template head<Axes>(); }  ///< g(h), s
+  [[nodiscard]] Vector step_response() const noexcept { return s_.template head<Axes>(); }     ///< s(h), s^2
+  [[nodiscard]] Vector ramp_response() const noexcept { return r_.template head<Axes>(); }     ///< r(h), s^3
+
+ private:
+  using Array = Lanes<Axes, Scalar>;
+
+  static Array lanes(const Vector& values) noexcept { return to_lanes<Axes, Scalar>(values, Scalar{0}); }
+
+  static constexpr double longest = 0.5;  // of |beta| h and sqrt(|kappa|) h within one series
+
+  // Coefficient n of r is at most (golden ratio * longest)^(n-3) / n!; the first one is 1/3!.
+  static constexpr int terms() {
+    double bound = 1, precision = 1;
+    for (int bit = 0; bit < std::numeric_limits<Scalar>::digits + 2; ++bit) precision /= 2;
+    int n = 3;
+    for (; n * bound > precision; ++n) bound *= 1.6181 * longest / (n + 1);  // s sums n times the coefficient
+    return n;
+  }
+
+  void sum_series(const Array& kappa, const Array& beta, const Scalar& h) noexcept {
+    const Array B = beta * h, K = kappa * (h * h);
+    const Array older = Array::Zero(), newer = Array::Constant(Scalar{1} / Scalar{6});  // coefficients 2 and 3
+    Array r = newer, s = Scalar{3} * newer;
+    add_terms<3>(B, K, older, newer, r, s);
+    g_ = (Scalar{1} - B * s - K * r) * h;
+    s_ = s * (h * h);
+    r_ = r * (h * h * h);
+  }
+
+  // Unrolled, so that the quotients are constants of the program.
+  template <int n>
+  EIGEN_ALWAYS_INLINE static void add_terms(const Array& B, const Array& K, const Array& older, const Array& newer,
+                                            Array& r, Array& s) noexcept {
+    if constexpr (n < terms()) {
+      const Array next = B * (Scalar{-1} / Scalar(n + 1)) * newer + K * (Scalar{-1} / Scalar(n * (n + 1))) * older;
+      r += next;
+      s += Scalar(n + 1) * next;
+      add_terms<n + 1>(B, K, newer, next, r, s);
+    }
+  }
+
+  // The second half starts from where the first one ended; its ramp starts at h.
+  void double_length(const Array& kappa, const Array& beta, Scalar& h) noexcept {
+    const Array from_position = Scalar{1} - kappa * s_;
+    const Array from_velocity = Scalar{1} - beta * g_ - kappa * s_;
+    const Array r = r_ + from_position * r_ + g_ * s_ + h * s_;
+    const Array s = s_ + from_position * s_ + g_ * g_;
+    g_ = g_ * (from_position + from_velocity);
+    s_ = s;
+    r_ = r;
+    h *= 2;
+  }
+
+  Array g_ = Array::Zero(), s_ = Array::Zero(), r_ = Array::Zero();
+  Array position_decay_ = Array::Ones(), velocity_decay_ = Array::Ones(), velocity_from_position_ = Array::Zero();
+  Scalar rate_{0};  // 1/h
+};
+
+}  // namespace limpid
