@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
+#include <limpid/core/status.hpp>
+#include <limpid/core/time.hpp>
+#include <limpid/signal/sample.hpp>
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace limpid {
+
+/// A signal sampled every `period`, seen `delay` later and held: x_zd(t), thesis section 4.3.2.
+///
+/// The sample k is taken at the first tick at or after k * period and stamped with that tick (the first tick takes the
+/// newest k that is due); it arrives `delay` later and is seen by the first tick at or after that. Neither needs to be
+/// a multiple of the tick, and the delay may exceed the period. A sampler with its own clock hands its samples to
+/// `offer` instead. A value that is not finite when its sample is due makes that sample a lost one.
+/// @tparam T         copied without throwing; `is_finite(T)` is found by argument-dependent lookup or in limpid
+/// @tparam Capacity  most samples on their way at once
+/// @realtime         no allocation, no throw; `update` looks at `value` only when a sample is due, `offer` costs a move
+/// of
+///                   each sample on its way that arrives later
+template <typename T, std::size_t Capacity = 64>
+class DelayedSampled {
+ public:
+  struct Settings {
+    Duration period{};  ///< T_d, between samples; > 0
+    Duration delay{};   ///< from taking a sample to its arrival; >= 0, below Capacity periods
+  };
+
+  /// @param initial  what is held before the first arrival, finite
+  /// @throws std::invalid_argument  where the settings cannot serve
+  explicit DelayedSampled(const Settings& settings, const T& initial = zero<T>())
+      : period_{settings.period}, delay_{settings.delay} {
+    expect(period_ > Duration::zero(), "DelayedSampled: period", "> 0", period_);
+    expect(delay_ >= Duration::zero(), "DelayedSampled: delay", ">= 0", delay_);
+    expect(static_cast<std::size_t>(delay_ / period_) < Capacity, "DelayedSampled: delay",
+           "below " + std::to_string(Capacity) + " periods", delay_);
+    expect(is_finite(initial), "DelayedSampled: initial", "finite", "a value that is not");
+    held_.value = initial;
+    held_.status = Status::no_sample;
+  }
+
+  /// What is seen at `now`; takes a sample of `value` if one is due.
+  /// @return status  `no_sample` before the first arrival; `not_finite`: a due sample was lost; `clock_backwards`:
+  /// `now`
+  ///                 is not after the last tick, nothing changed; `out_of_order`: an arrival was not newer than what is
+  ///                 held
+  [[nodiscard]] Held<T> update(Time now, const T& value) noexcept {
+    if (started_ && now <= now_) return held_with(Status::clock_backwards);
+    Status status = Status::ok;
+    if (!started_ || now >= next_due_) {
+      status = take(now, value);
+      next_due_ = period_ * (floor_of_periods(now) + 1);
+    }
+    return deliver(now, status);
+  }
+
+  /// What is seen at `now`, when all samples come by `offer`.
+  [[nodiscard]] Held<T> update(Time now) noexcept {
+    if (started_ && now <= now_) return held_with(Status::clock_backwards);
+    return deliver(now, Status::ok);
+  }
+
+  /// Sends a sample with its own clock on its way: it will be seen by the first tick at or after `sample.arrived`.
+  /// @return  `not_finite`, `clock_backwards` (arrived before it was taken), `out_of_order` (not newer than what is
+  /// held,
+  ///          or a repetition of one on its way): the sample was dropped; `overflow`: the earliest arrival was dropped
+  ///          for it
+  Status offer(const Sample<T>& sample) noexcept {
+    if (!is_finite(sample.value)) return Status::not_finite;
+    if (sample.arrived < sample.taken) return Status::clock_backwards;
+    if (arrived_any() && sample.taken <= held_.taken) return Status::out_of_order;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (slot(i).taken == sample.taken) return Status::out_of_order;
+    }
+    return send(sample);
+  }
+
+ private:
+  // Of samples taken in (now - delay, now] there are at most ceil(delay / period) + 1.
+  static constexpr std::size_t slots = Capacity + 1;
+
+  [[nodiscard]] bool arrived_any() const noexcept { return held_.status == Status::ok; }
+
+  // duration's own division rounds towards zero
+  [[nodiscard]] Duration::rep floor_of_periods(Time t) const noexcept {
+    const Duration::rep quotient = t / period_;
+    return quotient * period_ > t ? quotient - 1 : quotient;
+  }
+
+  Status take(Time now, const T& value) noexcept {
+    if (!is_finite(value)) return Status::not_finite;
+    return send({value, now, now + delay_});
+  }
+
+  // Keeps the ring in the order of arrival.
+  Status send(const Sample<T>& sample) noexcept {
+    const bool full = count_ == slots;
+    if (full) drop_front();
+    std::size_t i = count_++;
+    for (; i > 0 && later(slot(i - 1), sample); --i) slot(i) = slot(i - 1);
+    slot(i) = sample;
+    return when(full, Status::overflow);
+  }
+
+  static bool later(const Sample<T>& a, const Sample<T>& b) noexcept {
+    return a.arrived > b.arrived || (a.arrived == b.arrived && a.taken > b.taken);
+  }
+
+  [[nodiscard]] Held<T> deliver(Time now, Status status) noexcept {
+    started_ = true;
+    now_ = now;
+    bool fresh = false;
+    for (; count_ > 0 && slot(0).arrived <= now; drop_front()) {
+      const Sample<T>& sample = slot(0);
+      if (arrived_any() && sample.taken <= held_.taken) {
+        status |= Status::out_of_order;
+        continue;
+      }
+      held_.value = sample.value;
+      held_.taken = sample.taken;
+      held_.arrived = sample.arrived;
+      held_.status = Status::ok;
+      fresh = true;
+    }
+    Held<T> seen = held_with(status);
+    seen.fresh = fresh;
+    return seen;
+  }
+
+  [[nodiscard]] Held<T> held_with(Status status) const noexcept {
+    Held<T> seen = held_;
+    seen.status |= status;
+    return seen;
+  }
+
+  Sample<T>& slot(std::size_t i) noexcept {
+    const std::size_t at = first_ + i;
+    return ring_[at < slots ? at : at - slots];
+  }
+
+  void drop_front() noexcept {
+    first_ = first_ + 1 < slots ? first_ + 1 : 0;
+    --count_;
+  }
+
+  Duration period_;
+  Duration delay_;
+  Held<T> held_;  // never fresh; status no_sample or ok
+  bool started_ = false;
+  Time now_{};       // the last tick
+  Time next_due_{};  // of the next sample
+  std::size_t first_ = 0, count_ = 0;
+  std::array<Sample<T>, slots> ring_{};  // on their way, by arrival
+};
+
+}  // namespace limpid
