@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <cstring>
+
 namespace limpid {
 
 /// How many lanes hold `axes` axes: three axes take a fourth, idle one where the processor works on four at once.
@@ -23,7 +25,11 @@ template <int Axes, Real Scalar, typename Derived>
   if constexpr (lanes_for<Scalar>(Axes) == Axes) {
     return values;
   } else {
-    return {values.derived()[0], values.derived()[1], values.derived()[2], idle};
+    using Register [[gnu::vector_size(4 * sizeof(Scalar))]] = Scalar;  // joined there: through memory it would stall
+    const Register joined{values.derived()[0], values.derived()[1], values.derived()[2], idle};
+    Lanes<Axes, Scalar> lanes;
+    std::memcpy(lanes.data(), &joined, sizeof joined);
+    return lanes;
   }
 }
 

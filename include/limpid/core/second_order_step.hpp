@@ -29,7 +29,9 @@ class SecondOrderStep {
   /// @param h      length of the step, s, not negative; all three finite
   void set(const Vector& kappa, const Vector& beta, const Scalar& h) noexcept {
     const Array k = to_lanes<Axes, Scalar>(kappa, Scalar{0}), b = to_lanes<Axes, Scalar>(beta, Scalar{0});
-    Scalar size = (b.abs() * h).max(k.abs().sqrt() * h).maxCoeff();
+    const Array sizes = (b.abs() * h).max(k.abs().sqrt() * h);
+    Scalar size = sizes.sum();
+    if (size > longest) size = sizes.maxCoeff();
     Scalar piece = h;
     int doublings = 0;
     for (; size > longest; size /= 2, piece /= 2) ++doublings;

@@ -19,8 +19,6 @@ template <Real Scalar = double>
 }
 
 /// The nearest duration to `seconds`, which must be finite and below 292 years.
-[[nodiscard]] inline Duration from_seconds(double seconds) {
-  return Duration{std::llround(seconds * 1e9)};
-}
+[[nodiscard]] inline Duration from_seconds(double seconds) { return Duration{std::llround(seconds * 1e9)}; }
 
 }  // namespace limpid
