@@ -120,6 +120,13 @@ class VirtualTool {
     return {x, v, acceleration(x, v, F_h, F_e), F_e};
   }
 
+  static Both stacked(const Vector& above, const Vector& below) noexcept {
+    Both both;
+    both.template head<axes>() = above;
+    both.template tail<axes>() = below;
+    return both;
+  }
+
   // Takes (x, v) over a tick on which the operator's force goes from F0 to F1.
   Status move(Duration length, const Vector& F0, const Vector& F1, Vector& x, Vector& v) noexcept {
     if constexpr (exact) {
@@ -128,13 +135,10 @@ class VirtualTool {
       return Status::ok;
     } else {
       const Scalar h = in_seconds<Scalar>(length);
-      Both both;
-      both << x, v;
+      Both both = stacked(x, v);
       const Status status = stepper_.method.advance(both, Scalar{0}, h, [&](const Scalar& t, const Both& y) -> Both {
         const Vector at = y.template head<axes>(), rate = y.template tail<axes>();
-        Both slope;
-        slope << rate, acceleration(at, rate, F0 + (F1 - F0) * (t / h), environment_force(at, rate));
-        return slope;
+        return stacked(rate, acceleration(at, rate, F0 + (F1 - F0) * (t / h), environment_force(at, rate)));
       });
       x = both.template head<axes>();
       v = both.template tail<axes>();
