@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
+#include <limpid/core/lanes.hpp>
+#include <limpid/core/real.hpp>
+#include <limpid/core/status.hpp>
+#include <limpid/estimation/any_above.hpp>
+#include <limpid/estimation/box_projection.hpp>
+#include <limpid/estimation/least_squares_flow.hpp>
+#include <limpid/estimation/ud_factors.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace limpid {
+
+/// Recursive least squares with forgetting and projection on a box, thesis (4.43)-(4.47); each axis for itself.
+///
+///     theta_hat' = Proj(-Gamma phi eps / (1 + nu phi' Gamma phi)),     eps = phi' theta_hat - F
+///     Gamma'     = alpha Gamma - Gamma phi phi' Gamma / (1 + nu phi' Gamma phi)
+///
+/// A step is the exact solution of the law for phi and F held over it (`LeastSquaresFlow`), whatever its length; Gamma
+/// is kept as U D U' and so definite by construction. Two points of the law are read as follows.
+///
+/// Windup: (4.45) as printed stops altogether once lambda_max(Gamma) passes rho_M, and then never moves again. Here
+/// only the forgetting stops: a step that starts from Gamma uses, in place of alpha, the largest alpha' <= alpha for
+/// which exp(alpha' dt) lambda_max(Gamma) <= rho_M (0 where there is none). lambda_max(Gamma) <= rho_M holds always.
+///
+/// Projection: the step is taken freely and then brought back to the box in the metric of Gamma^-1 (`project_on_box`).
+/// @tparam N     parameters of an axis
+/// @realtime     update: no allocation, no throw, bounded work; some 150 flops an axis for N = 2, two thirds of them
+/// for the step's u
+template <int N, int Axes = 1, Real Scalar = double>
+class ProjectionRLS {
+ public:
+  using Vector = Eigen::Array<Scalar, Axes, 1>;
+  using Theta = Eigen::Array<Scalar, Axes, N>;      ///< row: axis, column: parameter
+  using Regressor = Eigen::Array<Scalar, Axes, N>;  ///< row: axis, column: parameter
+  using Gain = Eigen::Matrix<Scalar, N, N>;
+
+  struct Settings {
+    Theta lower;                    ///< corner of the box, in the parameters' units
+    Theta upper;                    ///< the opposite corner, same units
+    Theta initial;                  ///< theta_hat(0), within the box
+    Theta initial_gain;             ///< diagonal of Gamma(0), > 0 and <= gain_limit, in parameter^2 / (N^2 s)
+    Scalar forgetting = Scalar{2};  ///< alpha, 1/s, >= 0
+    Scalar normalisation = Scalar{1} / Scalar{100};         ///< nu, s, >= 0, with alpha nu < 1
+    Scalar gain_limit = Scalar{5} * Scalar{1'000'000'000};  ///< rho_M, bound on lambda_max(Gamma), units of the gain
+  };
+
+  /// Gamma = U D U'.
+  struct Factors {
+    Gain U;                         ///< unit upper triangular
+    Eigen::Matrix<Scalar, N, 1> D;  ///< positive
+  };
+
+  /// @throws std::invalid_argument  where a setting is outside the range given at its field
+  explicit ProjectionRLS(const Settings& settings)
+      : lower_{columns(settings.lower, Scalar{0})},
+        upper_{columns(settings.upper, Scalar{0})},
+        alpha_{settings.forgetting},
+        nu_{settings.normalisation},
+        rho_M_{settings.gain_limit},
+        state_{columns(checked(settings).initial, Scalar{0}), Factorised{columns(settings.initial_gain, Scalar{1})}} {}
+
+  /// The law over `dt` seconds with `phi` and `F` held.
+  /// @param phi  regressor phi_e,zd; row: axis
+  /// @param F    measured force less its known part, N
+  /// @return     not_finite or clock_backwards: nothing changed; at_bound: the box held a parameter
+  Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
+    const Columns columns_of_phi = columns(phi, Scalar{0});
+    const Array lanes_of_F = to_lanes<Axes, Scalar>(F, Scalar{0});
+    if (!is_finite(dt) || !finite(columns_of_phi, lanes_of_F)) return Status::not_finite;
+    if (!(dt > Scalar{0})) return Status::clock_backwards;
+    State next;
+    next = state_;  // assigned, not constructed: by whole packets
+    flow(next, dt, columns_of_phi, lanes_of_F);
+    const Status bound = project(next);
+    if (!finite(next.theta, next.Gamma.sum())) return Status::not_finite;  // phi or F too large to be squared
+    state_ = next;
+    return bound;
+  }
+
+  /// theta_hat, always inside the box.
+  [[nodiscard]] Theta theta() const noexcept {
+    Theta theta;
+    for (int j = 0; j < N; ++j) theta.col(j) = column(state_.theta, j).template head<Axes>();
+    return theta;
+  }
+
+  /// Gamma of an axis, multiplied out; `factors` are what is definite to the last bit.
+  [[nodiscard]] Gain gain(int axis) const noexcept { return state_.Gamma.product(axis); }
+  [[nodiscard]] Factors factors(int axis) const noexcept { return {state_.Gamma.U(axis), state_.Gamma.D(axis)}; }
+
+ private:
+  using Array = Lanes<Axes, Scalar>;
+  using Columns = std::array<Array, N>;
+  using Factorised = UDFactors<N, Array>;
+  using Flow = LeastSquaresFlow<Array>;
+  struct State {
+    Columns theta;
+    Factorised Gamma;
+  };
+
+  static const Array& column(const Columns& columns, int j) { return columns[static_cast<std::size_t>(j)]; }
+
+  static Columns columns(const Theta& values, const Scalar& idle) noexcept {
+    Columns columns;
+    for (int j = 0; j < N; ++j) columns[static_cast<std::size_t>(j)] = to_lanes<Axes, Scalar>(values.col(j), idle);
+    return columns;
+  }
+
+  // Zero times a finite number is zero, times any other it is NaN.
+  static bool finite(const Columns& columns, Array sum) noexcept {
+    const Scalar none{0};
+    sum *= none;
+    for (const auto& entry : columns) sum += entry * none;
+    return sum.sum() == none;
+  }
+
+  static const Settings& checked(const Settings& s) {
+    expect(is_finite(s.lower), "ProjectionRLS: lower", "finite", s.lower);
+    expect(is_finite(s.upper) && (s.upper >= s.lower).all(), "ProjectionRLS: upper", "finite and >= lower", s.upper);
+    expect(is_finite(s.initial) && (s.initial >= s.lower).all() && (s.initial <= s.upper).all(),
+           "ProjectionRLS: initial", "within lower and upper", s.initial);
+    expect(is_finite(s.gain_limit) && s.gain_limit > Scalar{0}, "ProjectionRLS: gain_limit", "finite and > 0",
+           s.gain_limit);
+    expect(is_finite(s.initial_gain) && (s.initial_gain > Scalar{0}).all() && (s.initial_gain <= s.gain_limit).all(),
+           "ProjectionRLS: initial_gain", "> 0 and <= gain_limit", s.initial_gain);
+    expect(is_finite(s.forgetting) && s.forgetting >= Scalar{0}, "ProjectionRLS: forgetting", "finite and >= 0",
+           s.forgetting);
+    expect(is_finite(s.normalisation) && s.normalisation >= Scalar{0} && s.forgetting * s.normalisation < Scalar{1},
+           "ProjectionRLS: normalisation", "finite, >= 0 and < 1 / forgetting (else no excitation bounds the gain)",
+           s.normalisation);
+    return s;
+  }
+
+  void flow(State& next, const Scalar& dt, const Columns& phi, const Array& F) const noexcept {
+    const auto forgetting = forgetting_over(dt);
+    const auto seen = next.Gamma.along(phi);
+    Array epsilon = -F;
+    for (std::size_t j = 0; j < phi.size(); ++j) epsilon += phi[j] * next.theta[j];
+    const Columns K = next.Gamma.downdate(seen, Flow::information(forgetting, dt, nu_, seen.s));
+    next.Gamma.scale(forgetting.growth());
+    for (std::size_t j = 0; j < phi.size(); ++j) next.theta[j] -= K[j] * epsilon;
+  }
+
+  // alpha dt, less where Gamma would grow past rho_M.
+  typename Flow::Forgetting forgetting_over(const Scalar& dt) const noexcept {
+    const Array exponent = to_lanes<Axes, Scalar>(Vector::Constant(alpha_ * dt), Scalar{0});
+    const typename Flow::Forgetting forgetting{exponent, exponential_mean(exponent)};
+    const Array bound = forgetting.growth() * state_.Gamma.trace();  // >= T lambda_max
+    if (any_above(bound, rho_M_)) [[unlikely]]
+      return less_forgetting(exponent, bound);
+    return forgetting;
+  }
+
+  typename Flow::Forgetting less_forgetting(Array exponent, const Array& bound) const noexcept {
+    using std::log;
+    for (int axis = 0; axis < Axes; ++axis) {
+      if (!(bound[axis] > rho_M_)) continue;
+      const Scalar room = log(rho_M_ / state_.Gamma.largest_eigenvalue(axis));
+      exponent[axis] = std::clamp(room, Scalar{0}, exponent[axis]);
+    }
+    return {exponent, exponential_mean(exponent)};
+  }
+
+  Status project(State& next) const noexcept {
+    Array excess = Array::Zero();
+    for (std::size_t j = 0; j < lower_.size(); ++j) {
+      excess = excess.max(lower_[j] - next.theta[j]).max(next.theta[j] - upper_[j]);
+    }
+    if (!any_above(excess, Scalar{0})) [[likely]]
+      return Status::ok;
+    for (int axis = 0; axis < Axes; ++axis) {
+      if (excess[axis] > Scalar{0}) project_axis(next, axis);
+    }
+    return Status::at_bound;
+  }
+
+  void project_axis(State& next, int axis) const noexcept {
+    const auto nearest = project_on_box<N, Scalar>(next.Gamma.product(axis), row(next.theta, axis), row(lower_, axis),
+                                                   row(upper_, axis));
+    for (int j = 0; j < N; ++j) next.theta[static_cast<std::size_t>(j)][axis] = nearest[j];
+  }
+
+  static Eigen::Matrix<Scalar, N, 1> row(const Columns& columns, int axis) noexcept {
+    Eigen::Matrix<Scalar, N, 1> row;
+    for (int j = 0; j < N; ++j) row[j] = column(columns, j)[axis];
+    return row;
+  }
+
+  Columns lower_, upper_;
+  Scalar alpha_, nu_, rho_M_;
+  State state_;
+};
+
+}  // namespace limpid

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <limpid/environment/fixed.hpp>
+#include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/tangent_model.hpp>
+#include <limpid/estimation/environment_estimator.hpp>
+#include <support/no_allocation.hpp>
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+using limpid::EnvironmentEstimator;
+using limpid::Held;
+using limpid::KelvinVoigt;
+using limpid::Status;
+using limpid::Time;
+using limpid::ToolState;
+using namespace std::chrono_literals;
+
+namespace {
+
+using Linear = EnvironmentEstimator<KelvinVoigt<1>>;
+using Pair = Linear::Law::Theta;
+using One = Eigen::Array<double, 1, 1>;
+
+Linear::Settings linear_model() {
+  return {
+      .environment = {},
+      .law = {
+          .lower = Pair(200, 20), .upper = Pair(2000, 40), .initial = Pair(1100, 30), .initial_gain = Pair(1e9, 8e6)}};
+}
+
+Held<ToolState<1>> held(double x, double v, double force, Time taken) {
+  Held<ToolState<1>> sample;
+  sample.value = {One::Constant(x), One::Constant(v), One::Zero(), One::Constant(force)};
+  sample.taken = sample.arrived = taken;
+  return sample;
+}
+
+}  // namespace
+
+TEST_CASE("the law runs over each tick with the sample that was held before it") {
+  Linear estimator(linear_model());
+  Linear::Law law(linear_model().law);
+  CHECK(estimator.update(1ms, held(0.01, 0.02, 9, 1ms)) == Status::ok);
+  CHECK((estimator.estimate().theta_hat == Pair(1100, 30)).all());  // nothing was held before
+  (void)estimator.update(3ms, held(0.02, -0.01, 15, 3ms));
+  (void)law.update(0.002, Pair(0.01, 0.02), One::Constant(9));
+  CHECK((estimator.estimate().theta_hat == law.theta()).all());
+  (void)estimator.update(4ms, held(0.02, -0.01, 15, 3ms));
+  (void)law.update(0.001, Pair(0.02, -0.01), One::Constant(15));
+  CHECK((estimator.estimate().theta_hat == law.theta()).all());
+  CHECK(estimator.estimate().stamp == 4ms);
+}
+
+TEST_CASE("before the first sample the estimate rests, and says so") {
+  Linear estimator(linear_model());
+  Held<ToolState<1>> nothing;
+  nothing.status = Status::no_sample;
+  for (int k = 1; k < 100; ++k) CHECK(estimator.update(k * 1ms, nothing) == Status::no_sample);
+  CHECK(estimator.law().gain(0)(0, 0) == doctest::Approx(1e9).epsilon(1e-15));
+}
+
+// F = k x + 30 v + c: with b known, two parameters remain, and the known damping force is taken off.
+TEST_CASE("a known parameter is not estimated, and its force is taken off") {
+  using Model = limpid::Fixed<limpid::Tangent<1>, 1>;
+  using Estimator = EnvironmentEstimator<Model>;
+  static_assert(Estimator::parameters == 2);
+  Estimator estimator({.environment = Model({.environment = {}, .known = One::Constant(30)}),
+                       .law = {.lower = Pair(200, -55),
+                               .upper = Pair(2000, 0),
+                               .initial = Pair(1100, 0),
+                               .initial_gain = Pair(1e9, 1e4),
+                               .forgetting = 20}});
+  for (int k = 0; k < 3000; ++k) {
+    const double t = k * 1e-3, x = 0.01 * (1 - std::cos(M_PI * t)), v = 0.01 * M_PI * std::sin(M_PI * t);
+    (void)estimator.update(k * 1ms, held(x, v, 700 * x + 30 * v - 1.5, k * 1ms));
+  }
+  CHECK(estimator.estimate().theta_hat(0) == doctest::Approx(700).epsilon(1e-6));  // forgotten by exp(-20 * 3)
+  CHECK(estimator.estimate().theta_hat(1) == doctest::Approx(-1.5).epsilon(1e-6));
+}
+
+TEST_CASE("samples that are not finite are not taken over, and time that does not advance changes nothing") {
+  Linear estimator(linear_model());
+  (void)estimator.update(1ms, held(0.01, 0.02, 9, 1ms));
+  (void)estimator.update(2ms, held(0.01, 0.02, 9, 1ms));
+  Linear undisturbed = estimator;
+  CHECK(estimator.update(2ms, held(0.02, 0, 9, 2ms)) == Status::clock_backwards);
+  CHECK((estimator.estimate().theta_hat == undisturbed.estimate().theta_hat).all());
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Linear disturbed = undisturbed;
+    CHECK(disturbed.update(3ms, held(bad, 0, 9, 3ms)) == Status::not_finite);
+    CHECK(disturbed.update(4ms, held(0, bad, 9, 4ms)) == Status::not_finite);
+    CHECK(disturbed.update(5ms, held(0, 0, bad, 5ms)) == Status::not_finite);
+    Linear as_if_held = undisturbed;
+    for (const Time now : {3ms, 4ms, 5ms}) (void)as_if_held.update(now, held(0.01, 0.02, 9, 1ms));
+    CHECK((disturbed.estimate().theta_hat == as_if_held.estimate().theta_hat).all());
+  }
+}
+
+TEST_CASE("an update asks for no memory") {
+  Linear estimator(linear_model());
+  limpid::test::check_no_allocation([&] {
+    for (int k = 0; k < 10; ++k) (void)estimator.update(k * 1ms, held(0.01, 0.001 * k, 9, k * 1ms));
+  });
+}
