@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
+#include <limpid/core/real.hpp>
+#include <limpid/core/status.hpp>
+#include <limpid/environment/environment.hpp>
+
+#include <Eigen/Core>
+
+#include <concepts>
+#include <limits>
+#include <string_view>
+
+namespace limpid {
+
+/// Row L = [L1 L2] that weighs the prediction error of (4.25), on each axis.
+template <int Axes = 1, Real Scalar = double>
+struct GainRow {
+  using Vector = Eigen::Array<Scalar, Axes, 1>;
+
+  Vector L1 = Vector::Zero();  ///< of the position error, N/m
+  Vector L2 = Vector::Zero();  ///< of the velocity error, N s/m
+
+  GainRow() = default;
+  GainRow(const Scalar& position, const Scalar& velocity) noexcept
+      : L1{Vector::Constant(position)}, L2{Vector::Constant(velocity)} {}
+  GainRow(const Vector& position, const Vector& velocity) noexcept : L1{position}, L2{velocity} {}
+
+  /// L e, N.
+  [[nodiscard]] Vector operator()(const Vector& x_error, const Vector& v_error) const noexcept {
+    return L1 * x_error + L2 * v_error;
+  }
+};
+
+/// The same L everywhere, designed by Theorem 2 or 3.
+/// @realtime  no allocation, no throw
+template <int Axes = 1, Real Scalar = double>
+struct ConstantGain {
+  static constexpr bool scheduled = false;
+
+  GainRow<Axes, Scalar> L;
+
+  ConstantGain() = default;  ///< no feedback
+  /// Scalars (every axis alike) or one entry for each axis: L1 in N/m, L2 in N s/m.
+  template <typename T>
+  ConstantGain(const T& L1, const T& L2) noexcept : L{L1, L2} {}
+
+  /// @throws std::invalid_argument  where an entry is not finite
+  void check() const {
+    expect(is_finite(L.L1), "ConstantGain: L1", "finite", L.L1);
+    expect(is_finite(L.L2), "ConstantGain: L2", "finite", L.L2);
+  }
+
+  [[nodiscard]] const GainRow<Axes, Scalar>& row() const noexcept { return L; }
+};
+
+/// L(rho) = L0 + L1 rho1 + L2 rho2 of thesis section 4.4.1, with rho = (dF_e/dx, dF_e/dv) of the environment as
+/// estimated.
+///
+/// rho is held inside the box, and its rate below the one, that the design was verified for: beyond them nothing is
+/// known of stability.
+/// @realtime  no allocation, no throw; some 20 flops an axis
+template <int Axes = 1, Real Scalar = double>
+class ScheduledGain {
+ public:
+  using Row = GainRow<Axes, Scalar>;
+  using Rho = Tangents<Axes, Scalar>;
+  static constexpr bool scheduled = true;
+
+  struct Settings {
+    Row L0{};     ///< N/m, N s/m
+    Row L1{};     ///< by stiffness: 1, s
+    Row L2{};     ///< by damping: 1/s, 1
+    Rho lower{};  ///< of the design's box: N/m >= lower.stiffness, N s/m >= lower.damping
+    Rho upper{};  ///< of the design's box
+    /// Fastest change of rho in the design: N/(m s), N/m; > 0; infinite where it has no limit.
+    Rho rate = {Vector::Constant(std::numeric_limits<Scalar>::infinity()),
+                Vector::Constant(std::numeric_limits<Scalar>::infinity())};
+  };
+
+  ScheduledGain() : ScheduledGain(Settings{}) {}  ///< no feedback
+  explicit ScheduledGain(const Settings& settings) noexcept : s_{settings} {}
+
+  /// @throws std::invalid_argument  where a gain is not finite, the box is empty or a rate not positive
+  void check() const {
+    for (const Row* row : {&s_.L0, &s_.L1, &s_.L2}) {
+      expect(is_finite(row->L1) && is_finite(row->L2), "ScheduledGain: L0, L1, L2", "finite", row->L1);
+    }
+    check_box("ScheduledGain: lower, upper stiffness", s_.lower.stiffness, s_.upper.stiffness);
+    check_box("ScheduledGain: lower, upper damping", s_.lower.damping, s_.upper.damping);
+    expect((s_.rate.stiffness > Scalar{0}).all(), "ScheduledGain: rate stiffness", "> 0", s_.rate.stiffness);
+    expect((s_.rate.damping > Scalar{0}).all(), "ScheduledGain: rate damping", "> 0", s_.rate.damping);
+  }
+
+  /// Schedules by `rho`, `dt` seconds after the last time (the first time without limit of rate).
+  /// @return  at_bound where the box or the rate held rho back
+  Status update(const Scalar& dt, const Rho& rho) noexcept {
+    const bool stiffness_held = move(k_, rho.stiffness, s_.lower.stiffness, s_.upper.stiffness, s_.rate.stiffness * dt);
+    const bool damping_held = move(b_, rho.damping, s_.lower.damping, s_.upper.damping, s_.rate.damping * dt);
+    started_ = true;
+    row_.L1 = s_.L0.L1 + s_.L1.L1 * k_ + s_.L2.L1 * b_;
+    row_.L2 = s_.L0.L2 + s_.L1.L2 * k_ + s_.L2.L2 * b_;
+    return when(stiffness_held || damping_held, Status::at_bound);
+  }
+
+  [[nodiscard]] const Row& row() const noexcept { return row_; }
+
+ private:
+  using Vector = Eigen::Array<Scalar, Axes, 1>;
+
+  static void check_box(std::string_view name, const Vector& lower, const Vector& upper) {
+    expect(is_finite(lower) && is_finite(upper) && (lower <= upper).all(), name, "finite and lower <= upper", lower);
+  }
+
+  bool move(Vector& from, const Vector& to, const Vector& lower, const Vector& upper, const Vector& most) noexcept {
+    Vector target = to.max(lower).min(upper);
+    if (started_) target = target.max(from - most).min(from + most);
+    from = target;
+    return (target != to).any();
+  }
+
+  Settings s_;
+  Row row_{};
+  Vector k_ = Vector::Zero(), b_ = Vector::Zero();  // rho
+  bool started_ = false;
+};
+
+/// What a ModelPredictor asks of its gain: a row to apply and, where scheduled, an update by the tangent.
+template <typename G, int axes, typename Scalar>
+concept PredictorGain = Real<Scalar> && std::copyable<G> && requires(const G& gain) {
+  { G::scheduled } -> std::convertible_to<bool>;
+  { gain.row() } -> std::convertible_to<GainRow<axes, Scalar>>;
+  gain.check();
+} &&(!G::scheduled || requires(G & gain, const Scalar& dt, const Tangents<axes, Scalar>& rho) {
+  { gain.update(dt, rho) } -> std::same_as<Status>;
+});
+
+}  // namespace limpid
