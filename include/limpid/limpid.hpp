@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Everything that needs no system library.
+
+#include <limpid/core/dormand_prince.hpp>
+#include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
+#include <limpid/core/lanes.hpp>
+#include <limpid/core/real.hpp>
+#include <limpid/core/second_order_step.hpp>
+#include <limpid/core/status.hpp>
+#include <limpid/core/time.hpp>
+
+#include <limpid/signal/delayed_sampled.hpp>
+#include <limpid/signal/filtered_derivative.hpp>
+#include <limpid/signal/history.hpp>
+#include <limpid/signal/intersample.hpp>
+#include <limpid/signal/low_pass.hpp>
+#include <limpid/signal/quantiser.hpp>
+#include <limpid/signal/sample.hpp>
+
+#include <limpid/environment/coupled.hpp>
+#include <limpid/environment/environment.hpp>
+#include <limpid/environment/fixed.hpp>
+#include <limpid/environment/hunt_crossley.hpp>
+#include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/smooth_bilinear.hpp>
+#include <limpid/environment/tangent_model.hpp>
+#include <limpid/environment/tool.hpp>
+#include <limpid/environment/unilateral.hpp>
+#include <limpid/environment/virtual_tool.hpp>
+
+#include <limpid/estimation/any_above.hpp>
+#include <limpid/estimation/box_projection.hpp>
+#include <limpid/estimation/environment_estimate.hpp>
+#include <limpid/estimation/environment_estimator.hpp>
+#include <limpid/estimation/excitation.hpp>
+#include <limpid/estimation/exponential_mean.hpp>
+#include <limpid/estimation/least_squares_flow.hpp>
+#include <limpid/estimation/projection_rls.hpp>
+#include <limpid/estimation/symmetric_eigenvalues.hpp>
+#include <limpid/estimation/ud_factors.hpp>
+
+#include <limpid/prediction/gains.hpp>
+#include <limpid/prediction/hold_predictor.hpp>
+#include <limpid/prediction/model_predictor.hpp>
+#include <limpid/prediction/predictor.hpp>
+
+#include <limpid/robot/inverse_kinematics.hpp>
+#include <limpid/robot/joint_state.hpp>
+#include <limpid/robot/omni.hpp>
+#include <limpid/robot/omni_device.hpp>
+#include <limpid/robot/omni_kinematics.hpp>
+#include <limpid/robot/omni_pose.hpp>
+#include <limpid/robot/robot.hpp>
+
+#include <limpid/control/computed_torque.hpp>
+#include <limpid/control/fault_reason.hpp>
+#include <limpid/control/omni_safety.hpp>
+#include <limpid/control/safe_torque.hpp>
+#include <limpid/control/safety_limiter.hpp>
+#include <limpid/control/safety_traits.hpp>
+#include <limpid/control/slotine_li_adaptive.hpp>
+#include <limpid/control/torque_set.hpp>
+#include <limpid/control/tracking_law.hpp>
+
+#include <limpid/device/haptic_device.hpp>
+#include <limpid/device/recording.hpp>
+#include <limpid/device/simulated_omni.hpp>
+
+#include <limpid/loop/block.hpp>
+#include <limpid/loop/call.hpp>
+#include <limpid/loop/check.hpp>
+#include <limpid/loop/diagram.hpp>
+#include <limpid/loop/graph.hpp>
+#include <limpid/loop/loop.hpp>
+#include <limpid/loop/result.hpp>
+#include <limpid/loop/signal.hpp>
+#include <limpid/loop/tick.hpp>
+#include <limpid/loop/wiring.hpp>
+#include <limpid/loop/wiring_errors.hpp>
+
+#include <limpid/evaluation/error_norms.hpp>
+#include <limpid/evaluation/latency_histogram.hpp>
+
+#include <limpid/scene/palpation_blocks.hpp>
+#include <limpid/scene/palpation_signals.hpp>
