@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/control/omni_safety.hpp>
+#include <limpid/control/slotine_li_adaptive.hpp>
+#include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/loop/loop.hpp>
+#include <limpid/prediction/model_predictor.hpp>
+#include <limpid/robot/omni.hpp>
+#include <limpid/robot/omni_kinematics.hpp>
+#include <limpid/scene/palpation_blocks.hpp>
+
+#include "tick/straightforward_tick.hpp"
+
+#include <vector>
+
+namespace limpid::bench {
+
+/// What a tick is given; a loop of inputs that excites all three axes.
+template <typename Scalar>
+struct TickInput {
+  Eigen::Matrix<Scalar, 3, 1> F_h;
+  ToolState<3, Scalar> tool;
+  DeviceState<3, Scalar> device;
+};
+
+/// 1024 ticks of a press along three axes, periodic.
+template <typename Scalar>
+[[nodiscard]] std::vector<TickInput<Scalar>> tick_inputs() {
+  std::vector<TickInput<Scalar>> inputs;
+  const Eigen::Array3d k{900, 600, 1300}, b{25, 33, 29}, phase{0, 1, 2};
+  const double w = 2 * 3.14159265358979 / 1.024;
+  for (int i = 0; i < 1024; ++i) {
+    const Eigen::Array3d angle = 3 * w * 0.001 * i + phase;
+    const Eigen::Array3d x = 0.003 * angle.sin(), v = 0.009 * w * angle.cos(), a = -0.027 * w * w * angle.sin();
+    const Eigen::Array3d force = k * x + b * v;
+    TickInput<Scalar> input;
+    input.tool = {x.cast<Scalar>(), v.cast<Scalar>(), a.cast<Scalar>(), force.cast<Scalar>()};
+    input.F_h = (force + 0.1 * a + 0.1 * v).matrix().cast<Scalar>();
+    input.device.q = (Eigen::Vector3d(0, 0.7853981633974483, -1.25) + 0.05 * angle.sin().matrix()).cast<Scalar>();
+    input.device.qdot = (0.15 * w * angle.cos().matrix()).cast<Scalar>();
+    inputs.push_back(input);
+  }
+  return inputs;
+}
+
+/// The tick's components as the library gives them, set as `StraightforwardTick` is.
+template <typename Scalar>
+struct TickParts {
+  using Env = KelvinVoigt<3, Scalar>;
+  using Arm = Omni<Scalar>;
+  using Predictor = ModelPredictor<Env>;
+  using Controller = SlotineLiAdaptive<Arm>;
+  using Kinematics = OmniKinematics<Scalar>;
+
+  [[nodiscard]] static StraightforwardTick::Settings settings() {
+    StraightforwardTick::Settings s;
+    s.tool = {.mass = 0.1, .damping = 0.1};
+    s.L1 = -195.1;
+    s.L2 = -4.89;
+    s.period = s.delay = std::chrono::milliseconds{1};  // a fresh sample on every tick
+    s.wall = Omni<>{}.at({0, 0.7853981633974483, -1.25}).position();
+    s.Lambda << 2.8, 3.0, 1.5;
+    s.Kd << 0.4, 0.28, 0.10;
+    s.Gamma << 0.01, 0.002, 0.002, 0.0005, 0.001, 0.001, 0.02, 0.02, 0.02;
+    s.theta0 = Omni<>::table_5_2();
+    return s;
+  }
+
+  // In the body of functions: g++ 12 fails on such braces where members are declared.
+  static auto make_estimator(const StraightforwardTick::Settings& s) {
+    return EnvironmentEstimator<Env>({.environment = {},
+                                      .law = {.lower = rows(s.lower),
+                                              .upper = rows(s.upper),
+                                              .initial = rows(s.initial),
+                                              .initial_gain = rows(s.initial_gain),
+                                              .forgetting = Scalar(s.alpha),
+                                              .normalisation = Scalar(s.nu),
+                                              .gain_limit = Scalar(s.rho_M)}});
+  }
+
+  static Predictor make_predictor(const StraightforwardTick::Settings& s) {
+    return Predictor({.environment = {},
+                      .tool = {.mass = Scalar(s.tool.mass), .damping = Scalar(s.tool.damping)},
+                      .theta = rows(s.initial),
+                      .gain = {Scalar(s.L1), Scalar(s.L2)}});
+  }
+
+  static Controller make_controller(const StraightforwardTick::Settings& s) {
+    return Controller({.Lambda = s.Lambda.template cast<Scalar>(),
+                       .Kd = s.Kd.template cast<Scalar>(),
+                       .Gamma = s.Gamma.template cast<Scalar>(),
+                       .theta0 = s.theta0.template cast<Scalar>()});
+  }
+
+  static EnvironmentTheta<Env> rows(const Eigen::Vector2d& value) {
+    EnvironmentTheta<Env> theta;
+    for (int axis = 0; axis < 3; ++axis) theta.row(axis) = value.transpose().array().template cast<Scalar>();
+    return theta;
+  }
+
+  explicit TickParts(const StraightforwardTick::Settings& s = settings())
+      : sampled({.period = s.period, .delay = s.delay}),
+        estimator(make_estimator(s)),
+        predictor(make_predictor(s)),
+        kinematics(Arm{}),
+        controller(make_controller(s)),
+        limiter(typename SafetyLimiter<Arm>::Settings{}),
+        wall(s.wall.template cast<Scalar>()) {}
+
+  DelayedSampled<ToolState<3, Scalar>> sampled;
+  EnvironmentEstimator<Env> estimator;
+  Predictor predictor;
+  Kinematics kinematics;
+  Controller controller;
+  SafetyLimiter<Arm> limiter;
+  Eigen::Matrix<Scalar, 3, 1> wall;
+};
+
+/// The tick composed from blocks.
+/// @tparam Wanted  signal asked for: the controller's torque, or the limiter's
+template <typename Wanted, typename Scalar>
+[[nodiscard]] auto composed_tick() {
+  using namespace palpation;
+  using P = TickParts<Scalar>;
+  using Arm = typename P::Arm;
+  const P parts;
+  return make_loop<wants<Wanted>,
+                   inputs<OperatorForce<Scalar>, ForceOnArm<Scalar>, TrueTool<3, Scalar>, MeasuredState<Arm>>>(
+      SafetyBlock<Arm>{parts.limiter}, TrackingBlock<typename P::Controller, Arm>{parts.controller},
+      KinematicsBlock<typename P::Kinematics, Arm, 3>{parts.kinematics, parts.wall},
+      AdaptivePredictionBlock<typename P::Predictor, typename P::Env>{parts.predictor},
+      AdaptationBlock<typename P::Env>{parts.estimator}, SamplingBlock<3, Scalar>{parts.sampled});
+}
+
+/// The same calls written by hand, up to the controller's torque.
+template <typename Scalar>
+struct HandWrittenTick : TickParts<Scalar> {
+  struct Output {
+    Eigen::Matrix<Scalar, 3, 1> torque;
+    Status status;
+  };
+
+  [[gnu::always_inline]] Output step(Time now, const Eigen::Matrix<Scalar, 3, 1>& F_h,
+                                     const Eigen::Matrix<Scalar, 3, 1>& on_arm, const ToolState<3, Scalar>& tool,
+                                     const DeviceState<3, Scalar>& device) noexcept {
+    const auto seen = this->sampled.update(now, tool);
+    Status status = device.status | seen.status | this->estimator.update(now, seen);
+    status |= this->predictor.use(this->estimator.estimate());
+    if (seen.fresh) status |= this->predictor.observe({seen.value, seen.taken, seen.arrived});
+    const auto [motion, predicted] = this->predictor.advance(now, F_h.array());
+    const auto wanted =
+        this->kinematics.inverse(this->wall + motion.x.matrix(), motion.v.matrix(), motion.a.matrix(), device.q);
+    const auto [tau, tracked] = this->controller.update(now, device.joint_state(), wanted, on_arm);
+    return {tau, status | predicted | wanted.status | tracked};
+  }
+};
+
+}  // namespace limpid::bench
