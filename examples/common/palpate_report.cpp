@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "palpate_report.hpp"
+
+#include "chart.hpp"
+#include "trace_curve.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <ostream>
+#include <stdexcept>
+
+namespace limpid::examples {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const PalpationResult* hold_of(const std::vector<PalpationRun>& runs) {
+  const auto found = std::find_if(runs.begin(), runs.end(),
+                                  [](const PalpationRun& run) { return run.predictor == PredictorKind::hold; });
+  return found == runs.end() ? nullptr : &found->result;
+}
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[160];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+std::string change(double with, double without) {
+  return without > 0 ? text("%+.1f %%", 100 * relative_change(with, without)) : "-";
+}
+
+// m and m/s mixed, as (3.35) prints them.
+void print_errors(std::ostream& out, const char* what, const std::vector<PalpationRun>& runs,
+                  ErrorNorms<3> PalpationResult::*which) {
+  const PalpationResult* hold = hold_of(runs);
+  out << text("%-18s %12s %10s %12s %10s\n", what, "max", "change", "L2", "change");
+  for (const PalpationRun& run : runs) {
+    const Norms<> error = (run.result.*which).total();
+    const bool compared = hold != nullptr && &run.result != hold;
+    const Norms<> reference = compared ? (hold->*which).total() : Norms<>{};
+    out << text("  %-16s %12.4g %10s %12.4g %10s\n", name(run.predictor), error.max,
+                compared ? change(error.max, reference.max).c_str() : "", error.l2,
+                compared ? change(error.l2, reference.l2).c_str() : "");
+  }
+}
+
+void print_ticks(std::ostream& out, const std::vector<PalpationRun>& runs) {
+  out << text("%-18s %12s %10s %12s %10s\n", "tick, ns", "p50", "p99", "p99.9", "max");
+  for (const PalpationRun& run : runs) {
+    const LatencyHistogram& tick = run.result.tick;
+    const auto ns = [&](double p) { return static_cast<long>(tick.quantile(p).count()); };
+    out << text("  %-16s %12ld %10ld %12ld %10ld\n", name(run.predictor), ns(0.5), ns(0.99), ns(0.999),
+                static_cast<long>(tick.max().count()));
+  }
+}
+
+const char* name(TissueKind kind) {
+  switch (kind) {
+    case TissueKind::kelvin_voigt:
+      return "kelvin-voigt";
+    case TissueKind::smooth_bilinear:
+      return "smooth-bilinear";
+    case TissueKind::hunt_crossley:
+      return "hunt-crossley";
+  }
+  return "unknown";
+}
+
+Json settings_of(const Scene& scene) {
+  const Tissue& tissue = scene.tissue;
+  Json json{{"force", scene.force.description},
+            {"duration", in_seconds(scene.duration)},
+            {"rate", 1 / in_seconds(scene.tick)},
+            {"sample_period", in_seconds(scene.period)},
+            {"delay", in_seconds(scene.delay)},
+            {"environment", name(tissue.kind)},
+            {"stiffness", tissue.stiffness},
+            {"damping", tissue.damping},
+            {"unilateral", tissue.unilateral},
+            {"tool", {scene.tool.mass, scene.tool.damping, scene.tool.stiffness}},
+            {"gain", scene.gain},
+            {"known", scene.estimation.known},
+            {"robot", scene.robot == RobotKind::ideal ? "ideal" : "realistic"},
+            {"playback", scene.playback}};
+  if (tissue.kind == TissueKind::smooth_bilinear) {
+    json["stiffness"] = {tissue.stiffness, tissue.stiffness2};
+    json["depth"] = tissue.depth;
+    json["sharpness"] = tissue.sharpness;
+  }
+  if (tissue.kind == TissueKind::hunt_crossley) json["exponent"] = tissue.exponent;
+  if (!scene.estimation.known) json["start"] = {scene.estimation.stiffness, scene.estimation.damping};
+  return json;
+}
+
+Json norms(const ErrorNorms<3>& error) {
+  return {{"max", error.total().max},
+          {"l2", error.total().l2},
+          {"position", {{"max", error.position().max}, {"l2", error.position().l2}}},
+          {"velocity", {{"max", error.velocity().max}, {"l2", error.velocity().l2}}}};
+}
+
+Json ticks(const LatencyHistogram& tick) {
+  return {{"p50", tick.quantile(0.5).count()},
+          {"p99", tick.quantile(0.99).count()},
+          {"p99.9", tick.quantile(0.999).count()},
+          {"max", tick.max().count()}};
+}
+
+Json changes(const PalpationResult& result, const PalpationResult& hold) {
+  const Norms<> prediction = result.prediction.total(), held = hold.prediction.total();
+  const Norms<> total = result.total.total(), held_total = hold.total.total();
+  return {{"prediction_max", relative_change(prediction.max, held.max)},
+          {"prediction_l2", relative_change(prediction.l2, held.l2)},
+          {"total_max", relative_change(total.max, held_total.max)},
+          {"total_l2", relative_change(total.l2, held_total.l2)}};
+}
+
+Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
+  Json json{{"settings", settings_of(scene)}, {"predictors", Json::object()}};
+  const PalpationResult* hold = hold_of(runs);
+  LatencyHistogram all;
+  for (const PalpationRun& run : runs) {
+    const PalpationResult& result = run.result;
+    Json& entry = json["predictors"][name(run.predictor)];
+    entry["prediction_error"] = norms(result.prediction);
+    entry["total_error"] = norms(result.total);
+    if (hold != nullptr) entry["change"] = changes(result, *hold);
+    entry["tick_ns"] = ticks(result.tick);
+    entry["status"] = describe(result.status);
+    all.merge(result.tick);
+  }
+  json["tick_ns"] = ticks(all);
+  return json;
+}
+
+void write_json(const std::string& path, const Scene& scene, const std::vector<PalpationRun>& runs) {
+  std::ofstream file(path);
+  file << report(scene, runs).dump(2) << '\n';
+  if (!file) throw std::runtime_error("--json: " + path + " cannot be written");
+}
+
+void write_csv(const std::string& path, const std::vector<PalpationRun>& runs) {
+  std::ofstream file(path);
+  file.precision(12);
+  file << "time_s,force_N,ideal_m";
+  for (const PalpationRun& run : runs) {
+    for (const char* column : {"predicted_m", "tip_m", "prediction_error", "total_error"}) {
+      file << ',' << name(run.predictor) << '_' << column;
+    }
+  }
+  file << '\n';
+  for (std::size_t i = 0; i < runs.front().result.trace.size(); ++i) {
+    const TracePoint& first = runs.front().result.trace[i];
+    file << first.time << ',' << first.force << ',' << first.ideal;
+    for (const PalpationRun& run : runs) {
+      const TracePoint& point = run.result.trace[i];
+      file << ',' << point.predicted << ',' << point.tip << ',' << point.prediction_error << ',' << point.total_error;
+    }
+    file << '\n';
+  }
+  if (!file) throw std::runtime_error("--csv: " + path + " cannot be written");
+}
+
+Chart palpation_chart(const Scene& scene, const std::vector<PalpationRun>& runs) {
+  const std::vector<TracePoint>& first = runs.front().result.trace;
+  Chart chart{text("%s, sampled every %g s, seen %g s later", name(scene.tissue.kind), in_seconds(scene.period),
+                   in_seconds(scene.delay)),
+              {{"operator's force", "time (s)", "F_h (N)", {curve("force", first, &TracePoint::force)}},
+               {"motion along the press axis", "time (s)", "x (m)", {curve("virtual tool", first, &TracePoint::ideal)}},
+               {"prediction error (3.35)", "time (s)", "|e|", {}, true},
+               {"total error (3.35)", "time (s)", "|e_tot|", {}, true}}};
+  for (const PalpationRun& run : runs) {
+    const std::string who = name(run.predictor);
+    chart.panels[1].curves.push_back(curve("tip, " + who, run.result.trace, &TracePoint::tip));
+    if (run.predictor != PredictorKind::ideal) {
+      chart.panels[2].curves.push_back(curve(who, run.result.trace, &TracePoint::prediction_error));
+    }
+    chart.panels[3].curves.push_back(curve(who, run.result.trace, &TracePoint::total_error));
+  }
+  return chart;
+}
+
+}  // namespace
+
+void print_table(std::ostream& out, const Scene& scene, const std::vector<PalpationRun>& runs) {
+  out << scene.force.description << " on " << name(scene.tissue.kind) << ", "
+      << text("%g s at %g Hz; sampled every %g s, seen %g s later\n", in_seconds(scene.duration),
+              1 / in_seconds(scene.tick), in_seconds(scene.period), in_seconds(scene.delay));
+  print_errors(out, "prediction error", runs, &PalpationResult::prediction);
+  print_errors(out, "total error", runs, &PalpationResult::total);
+  print_ticks(out, runs);
+  for (const PalpationRun& run : runs) {
+    if (run.result.status != Status::ok) out << name(run.predictor) << ": " << describe(run.result.status) << '\n';
+  }
+}
+
+void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs) {
+  if (!options.json.empty()) {
+    write_json(options.json, options.scene, runs);
+    out << "figures: " << options.json << '\n';
+  }
+  if (!options.csv.empty()) {
+    write_csv(options.csv, runs);
+    out << "signals: " << options.csv << '\n';
+  }
+  if (!options.plot.empty()) out << "plot: " << draw(palpation_chart(options.scene, runs), options.plot) << '\n';
+}
+
+}  // namespace limpid::examples

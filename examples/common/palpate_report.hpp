@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "palpate_options.hpp"
+#include "scene.hpp"
+
+#include <iosfwd>
+#include <vector>
+
+namespace limpid::examples {
+
+struct PalpationRun {
+  PredictorKind predictor;
+  PalpationResult result;
+};
+
+/// Errors and tick times of each predictor, with the change against hold where hold was run.
+void print_table(std::ostream& out, const Scene& scene, const std::vector<PalpationRun>& runs);
+
+/// Writes what the options ask for and says where.
+/// @throws std::runtime_error  where a file cannot be written
+void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs);
+
+}  // namespace limpid::examples

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "press_force.hpp"
+
+#include <limpid/core/time.hpp>
+#include <limpid/environment/tool.hpp>
+#include <limpid/evaluation/error_norms.hpp>
+#include <limpid/evaluation/latency_histogram.hpp>
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace limpid::examples {
+
+enum class TissueKind { kelvin_voigt, smooth_bilinear, hunt_crossley };
+enum class PredictorKind { hold, model, ideal };
+enum class RobotKind { ideal, realistic };
+
+[[nodiscard]] const char* name(PredictorKind kind);
+
+/// What is pressed; only the fields of its kind are read.
+struct Tissue {
+  TissueKind kind = TissueKind::kelvin_voigt;
+  double stiffness = 800;   ///< k, or the first slope, N/m (N/m^exponent for hunt_crossley)
+  double stiffness2 = 800;  ///< the second slope of smooth_bilinear, N/m
+  double depth = 0.0028;    ///< x_s of smooth_bilinear, m
+  double sharpness = 20;    ///< R of smooth_bilinear
+  double exponent = 1.3;    ///< of hunt_crossley
+  double damping = 30;      ///< b, N s/m
+  bool unilateral = false;  ///< whether the tool may leave the wall
+};
+
+/// What the predictor starts from; the boxes, gains and forgetting factors are the thesis's (6.1.3, 6.2.2).
+struct Estimation {
+  double stiffness = 1100;  ///< start of k, N/m
+  double damping = 30;      ///< start of b; where the tissue is nonlinear, b as the offset model knows it, N s/m
+  bool known = false;       ///< the predictor knows the tissue: nothing is estimated
+};
+
+/// L1, L2, or L0, L1, L2 of a scheduled gain, each a pair (position in N/m, velocity in N s/m).
+using PredictorGain = std::vector<double>;
+
+/// One palpation: a recorded hand presses a simulated Omni against a slow tissue.
+struct Scene {
+  Tissue tissue;
+  Estimation estimation;
+  PredictorGain gain{0, 0};
+  Tool<1> tool{.mass = 0.1, .damping = 0.1};
+  PressForce force;
+  Duration duration{};
+  Duration tick = std::chrono::milliseconds{1};
+  Duration period{};  ///< of the tissue's samples
+  Duration delay{};   ///< from taking a sample to seeing it
+  RobotKind robot = RobotKind::ideal;
+  bool playback = false;  ///< the operator's force acts on the tissue alone, not on the arm (7.1)
+  Eigen::Vector3d start{0, 0.78539816339744830962, -1.25};  ///< q(0), rad
+  /// Section 6.1.4: the tool's spring pulls toward the origin of the base frame, so that y and z move too; they are
+  /// sampled and held without prediction, and exact with it.
+  bool spring_at_base = false;
+};
+
+/// Signals of one tick, for curves; N, m, s.
+struct TracePoint {
+  double time, force, ideal, predicted, tip;  ///< the last three along the press axis, from the wall
+  double prediction_error, total_error;       ///< 2-norms of (3.35)
+  Eigen::Array2d parameters;                  ///< k and b (or c) as estimated; zero where nothing is
+  Eigen::Vector3d torque;                     ///< N m, as applied
+};
+
+/// What one predictor made of a scene.
+struct PalpationResult {
+  ErrorNorms<3> prediction, total;
+  LatencyHistogram tick;       ///< of the loop's own work, ns
+  Status status = Status::ok;  ///< joined over the run, without what the first samples' absence explains
+  std::vector<TracePoint> trace;
+};
+
+/// Runs the scene with one predictor.
+/// @param progress  called now and then with the fraction done
+/// @throws std::invalid_argument  where the scene contradicts itself
+[[nodiscard]] PalpationResult palpate(const Scene& scene, PredictorKind predictor,
+                                      const std::function<void(double)>& progress = {});
+
+}  // namespace limpid::examples

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// The thesis's simulations with the printed gains, printed values beside ours.
+#include "common/section.hpp"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+namespace {
+
+using namespace limpid::examples;
+using Json = nlohmann::ordered_json;
+
+SectionReport run_section(const std::string& section, std::optional<int> number) {
+  if (section == "5.2.7") return section_5_2_7();
+  if (section == "6.1.1") return section_6_1_1();
+  if (section == "6.1.2") return section_6_1_2();
+  if (section == "6.1.3") return section_6_1_3();
+  return section_6_1_4(number);
+}
+
+void print(const SectionReport& report) {
+  std::cout << report.title << '\n';
+  if (!report.cases.empty()) {
+    std::printf("%-6s %20s %20s\n", "case", "bound (printed)", "L2 (printed)");
+    for (const CaseComparison& which : report.cases) {
+      std::printf("%-6d %9.1f %% (%.1f %%) %9.1f %% (%.1f %%)\n", which.number, 100 * which.bound_change,
+                  100 * which.printed_bound_change, 100 * which.l2_change, 100 * which.printed_l2_change);
+    }
+  }
+  for (const Comparison& figure : report.figures) {
+    std::printf("%-72s %12.4g", figure.name.c_str(), figure.ours);
+    if (figure.printed) std::printf("  printed %.4g", *figure.printed);
+    std::printf(" %s%s%s\n", figure.unit.c_str(), figure.remark.empty() ? "" : "  # ", figure.remark.c_str());
+  }
+  std::fflush(stdout);
+}
+
+Json as_json(const SectionReport& report) {
+  Json figures = Json::array(), cases = Json::array();
+  for (const Comparison& figure : report.figures) {
+    Json entry{{"name", figure.name}, {"ours", figure.ours}, {"printed", nullptr}, {"unit", figure.unit}};
+    if (figure.printed) entry["printed"] = *figure.printed;
+    if (!figure.remark.empty()) entry["remark"] = figure.remark;
+    figures.push_back(entry);
+  }
+  for (const CaseComparison& which : report.cases) {
+    cases.push_back(
+        {{"case", which.number},
+         {"bound_change", which.bound_change},
+         {"l2_change", which.l2_change},
+         {"printed", {{"bound_change", which.printed_bound_change}, {"l2_change", which.printed_l2_change}}}});
+  }
+  if (report.cases.empty()) return figures;
+  return {{"cases", cases}, {"figures", figures}};
+}
+
+void write_json(const std::string& path, const SectionReport& report) {
+  std::ofstream file(path);
+  file << as_json(report).dump(2) << '\n';
+  if (!file) throw std::runtime_error("--json: " + path + " cannot be written");
+  std::cout << "figures: " << path << '\n';
+}
+
+void write_charts(const std::string& folder, const SectionReport& report) {
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, chart] : report.charts) {
+    std::cout << "plot: " << draw(chart, (std::filesystem::path(folder) / (name + ".svg")).string()) << '\n';
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"The thesis's simulations with the printed gains, printed values beside ours.", "reproduce"};
+  std::string section, json, plot;
+  int number = 0;
+  app.add_option("--section", section, "of the thesis")
+      ->required()
+      ->check(CLI::IsMember({"5.2.7", "6.1.1", "6.1.2", "6.1.3", "6.1.4"}));
+  CLI::Option* one = app.add_option("--case", number, "one row of Table 6.5 (6.1.4)")->check(CLI::Range(1, 9));
+  app.add_option("--json", json, "write the figures here");
+  app.add_option("--plot", plot, "draw the thesis's figures into this folder (SVG)");
+  try {
+    app.parse(argc, argv);
+    if (one->count() > 0 && section != "6.1.4") {
+      throw CLI::ValidationError("--case", "goes with --section 6.1.4, got " + section);
+    }
+    const SectionReport report = run_section(section, one->count() > 0 ? std::optional<int>(number) : std::nullopt);
+    print(report);
+    if (!json.empty()) write_json(json, report);
+    if (!plot.empty()) write_charts(plot, report);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error);
+  } catch (const std::exception& error) {
+    std::cerr << "reproduce: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <sys/wait.h>
+
+namespace {
+
+struct Run {
+  int code;
+  std::string output;  // both streams
+};
+
+Run run(const std::string& program, const std::string& arguments) {
+  const std::string command = std::string(LIMPID_EXAMPLES_DIR) + "/" + program + " " + arguments + " 2>&1";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  Run result{0, {}};
+  std::array<char, 256> piece;
+  while (std::fgets(piece.data(), piece.size(), pipe) != nullptr) result.output += piece.data();
+  const int status = ::pclose(pipe);
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return result;
+}
+
+bool mentions(const Run& run, const std::string& text) { return run.output.find(text) != std::string::npos; }
+
+void refused(const std::string& arguments, const std::string& option) {
+  CAPTURE(arguments);
+  const Run result = run("palpate", arguments);
+  CAPTURE(result.output);
+  CHECK(result.code != 0);
+  CHECK(mentions(result, option));
+}
+
+}  // namespace
+
+TEST_CASE("palpate refuses wrong options and names them") {
+  refused("--sample-period 0", "--sample-period");
+  refused("--sample-period nan", "--sample-period");
+  refused("--sample-period 0.0001", "--sample-period");
+  refused("--stiffness -5", "--stiffness");
+  refused("--stiffness abc", "--stiffness");
+  refused("--predictor future", "--predictor");
+  refused("--environment jelly", "--environment");
+  refused("--tool 0,0.1,0", "--tool");
+  refused("--tool 0.1,0.1", "--tool");
+  refused("--gain 1,2,3", "--gain");
+  refused("--start 1,2", "--start");
+  refused("--rate 0", "--rate");
+  refused("--delay -1", "--delay");
+  refused("--delay 9", "--delay");
+  refused("--duration 100", "--duration");
+  refused("--unknown 1", "--unknown");
+}
+
+TEST_CASE("palpate refuses options that contradict each other") {
+  refused("--force-sine 1,1 --force-raised-cosine 1,1", "--force-");
+  refused("--force-scale 0.05", "--force");
+  refused("--depth 0.003", "--depth");
+  refused("--exponent 1.5", "--exponent");
+  refused("--stiffness 1,2", "--stiffness");
+  refused("--environment smooth-bilinear --stiffness 400", "--stiffness");
+  refused("--known --start 1100,30", "--start");
+}
+
+TEST_CASE("palpate says where a recording is broken") {
+  const auto path = std::filesystem::temp_directory_path() / "limpid_broken_recording.csv";
+  std::ofstream(path) << "time,force\n0,1\n0.02,two\n";
+  const Run result = run("palpate", "--force " + path.string());
+  std::filesystem::remove(path);
+  CHECK(result.code != 0);
+  CHECK(mentions(result, "line 3, column 2"));
+}
+
+TEST_CASE("palpate writes the figures of every predictor as JSON") {
+  const auto path = std::filesystem::temp_directory_path() / "limpid_palpate.json";
+  const Run result = run("palpate", "--duration 3 --json " + path.string());
+  CAPTURE(result.output);
+  REQUIRE(result.code == 0);
+  const nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
+  std::filesystem::remove(path);
+  CHECK(json.contains("settings"));
+  CHECK(json["tick_ns"].contains("p99.9"));
+  for (const char* predictor : {"hold", "model", "ideal"}) {
+    CAPTURE(predictor);
+    const auto& entry = json["predictors"][predictor];
+    for (const char* error : {"prediction_error", "total_error"}) {
+      CHECK(entry[error]["max"].is_number());
+      CHECK(entry[error]["l2"].is_number());
+    }
+    for (const char* change : {"prediction_max", "prediction_l2", "total_max", "total_l2"}) {
+      CHECK(entry["change"][change].is_number());
+    }
+  }
+  CHECK(json["predictors"]["hold"]["change"]["total_l2"] == 0.0);
+}
+
+TEST_CASE("palpate draws its plot, or says that gnuplot is absent and writes the curves") {
+  const auto path = std::filesystem::temp_directory_path() / "limpid_palpate.svg";
+  const Run result = run("palpate", "--duration 2 --plot " + path.string());
+  CAPTURE(result.output);
+  CHECK(result.code == 0);
+  const auto curves = std::filesystem::path(path).replace_extension(".csv");
+  CHECK((std::filesystem::exists(path) || std::filesystem::exists(curves)));
+  std::filesystem::remove(path);
+  std::filesystem::remove(curves);
+}
+
+TEST_CASE("reproduce refuses sections that it does not know and cases where there are none") {
+  for (const char* arguments : {"", "--section 9.9", "--section 6.1.1 --case 2", "--section 6.1.4 --case 10"}) {
+    CAPTURE(arguments);
+    CHECK(run("reproduce", arguments).code != 0);
+  }
+}
+
+TEST_CASE("reproduce lists its figures with what is printed") {
+  const auto path = std::filesystem::temp_directory_path() / "limpid_reproduce.json";
+  REQUIRE(run("reproduce", "--section 6.1.2 --json " + path.string()).code == 0);
+  const nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
+  std::filesystem::remove(path);
+  REQUIRE(json.is_array());
+  for (const auto& figure : json) {
+    for (const char* field : {"name", "ours", "printed", "unit"}) CHECK(figure.contains(field));
+  }
+}
