@@ -9,12 +9,18 @@
 int main() {
   limpid::ProjectionRLS<2> estimator(
       {.lower = {200, 20}, .upper = {2000, 40}, .initial = {1100, 30}, .initial_gain = {1e9, 8e6}, .forgetting = 2});
+  limpid::ExcitationMonitor<2> monitor({.window = 0.5, .least = 1e-9});
   const double k = 1500, b = 35, dt = 0.001;
+  bool excited = false;
   for (int tick = 0; tick <= 1000; ++tick) {
     const double x = 0.002 * std::sin(0.01 * tick), v = 0.02 * std::cos(0.01 * tick);
     (void)estimator.update(dt, {x, v}, limpid::ProjectionRLS<2>::Vector(k * x + b * v));
-    if (tick % 250 == 0)
-      std::printf("%4d ms: k %.1f N/m, b %.2f N s/m\n", tick, estimator.theta()(0, 0), estimator.theta()(0, 1));
+    excited = monitor.update(dt, {x, v}).excited.all();
+    if (tick % 250 != 0) continue;
+    const auto theta = estimator.theta();
+    std::printf("%4d ms: k %.1f N/m, b %.2f N s/m, %s\n", tick, theta(0, 0), theta(0, 1),
+                excited ? "excited" : "not excited yet");
   }
-  return std::abs(estimator.theta()(0, 0) - k) < 0.01 * k && std::abs(estimator.theta()(0, 1) - b) < 0.01 * b ? 0 : 1;
+  const auto theta = estimator.theta();
+  return excited && std::abs(theta(0, 0) - k) < 0.01 * k && std::abs(theta(0, 1) - b) < 0.01 * b ? 0 : 1;
 }

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     }
     print_table(std::cout, options.scene, runs);
     write_outputs(std::cout, options, runs);
-    return 0;
+    return report_faults(std::cerr, runs) ? 2 : 0;
   } catch (const std::exception& error) {
     std::cerr << "palpate: " << error.what() << '\n';
     return 1;

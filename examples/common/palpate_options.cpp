@@ -105,6 +105,15 @@ void refuse_strangers(const CLI::App& app, const Typed& typed) {
   if (typed.stiffness.size() == 1 && typed.environment == "smooth-bilinear") {
     refuse("--stiffness", "accepts K1,K2 with --environment smooth-bilinear, got one number");
   }
+  const auto predicted = [&](const char* word) {
+    return std::find(typed.predictors.begin(), typed.predictors.end(), word) != typed.predictors.end();
+  };
+  if (predicted("all") && typed.predictors.size() > 1) refuse("--predictor", "accepts all, or a list without it");
+  for (const char* option : {"--gain", "--known", "--start"}) {
+    if (app.count(option) > 0 && !predicted("all") && !predicted("model")) {
+      refuse(option, "goes with --predictor model, which is not asked for");
+    }
+  }
   if (typed.known && !typed.start.empty()) refuse("--start", "accepts nothing with --known: nothing is estimated");
 }
 

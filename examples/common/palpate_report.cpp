@@ -61,6 +61,22 @@ void print_ticks(std::ostream& out, const std::vector<PalpationRun>& runs) {
   }
 }
 
+// Section 3.5: a change counts where people can feel it.
+void print_verdict(std::ostream& out, const std::vector<PalpationRun>& runs) {
+  const PalpationResult* hold = hold_of(runs);
+  if (hold == nullptr) return;
+  for (const PalpationRun& run : runs) {
+    if (&run.result == hold) continue;
+    const double difference = relative_change(run.result.total.total().l2, hold->total.total().l2);
+    const char* verdict = !significant(difference) ? "below what can be felt"
+                          : difference < 0         ? "felt as better than hold"
+                                                   : "felt as worse than hold";
+    out << name(run.predictor)
+        << text(": total L2 error %+.1f %%, %s (Weber's fraction is %g %%)\n", 100 * difference, verdict,
+                100 * weber_threshold);
+  }
+}
+
 const char* name(TissueKind kind) {
   switch (kind) {
     case TissueKind::kelvin_voigt:
@@ -196,9 +212,21 @@ void print_table(std::ostream& out, const Scene& scene, const std::vector<Palpat
   print_errors(out, "prediction error", runs, &PalpationResult::prediction);
   print_errors(out, "total error", runs, &PalpationResult::total);
   print_ticks(out, runs);
+  print_verdict(out, runs);
   for (const PalpationRun& run : runs) {
     if (run.result.status != Status::ok) out << name(run.predictor) << ": " << describe(run.result.status) << '\n';
   }
+}
+
+bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs) {
+  bool any = false;
+  for (const PalpationRun& run : runs) {
+    if (!has(run.result.status, Status::fault)) continue;
+    any = true;
+    out << "palpate: " << name(run.predictor) << ": the safety limiter latched a fault (" << describe(run.result.status)
+        << "); its figures hold for an arm without torque\n";
+  }
+  return any;
 }
 
 void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs) {

@@ -17,6 +17,10 @@ struct PalpationRun {
 /// Errors and tick times of each predictor, with the change against hold where hold was run.
 void print_table(std::ostream& out, const Scene& scene, const std::vector<PalpationRun>& runs);
 
+/// Says which runs ended in a fault of the limiter: their arm hung without torque from then on.
+/// @returns whether any did
+[[nodiscard]] bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs);
+
 /// Writes what the options ask for and says where.
 /// @throws std::runtime_error  where a file cannot be written
 void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs);

@@ -83,7 +83,7 @@ template <int Axes, typename Loop, typename Parameters>
     const double F_h = scene.force.at(now);
     const Eigen::Vector3d hand{F_h, 0, 0}, on_arm{scene.playback ? 0 : F_h, 0, 0};
     const ToolState<3> tool = plant(now, F_h);
-    result.status |= device.advance(now, on_arm);
+    result.status |= device.advance(now, hand);
     const DeviceState<> measured = device.read(now);
 
     const auto started = std::chrono::steady_clock::now();

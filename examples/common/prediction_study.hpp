@@ -40,7 +40,7 @@ struct StudyPoint {
 
 [[nodiscard]] std::vector<StudyPoint> run(const PredictionStudy& study);
 
-/// Largest and L2 norm of one error of a study, and its running L2 norm.
+/// Largest value of one error of a study, from a time on.
 [[nodiscard]] double largest(const std::vector<StudyPoint>& points, double (StudyPoint::*error)() const,
                              double from_time = 0);
 

@@ -68,6 +68,9 @@ TEST_CASE("palpate refuses options that contradict each other") {
   refused("--stiffness 1,2", "--stiffness");
   refused("--environment smooth-bilinear --stiffness 400", "--stiffness");
   refused("--known --start 1100,30", "--start");
+  refused("--predictor hold --known", "--known");
+  refused("--predictor hold,ideal --gain 1,2", "--gain");
+  refused("--predictor all,hold", "--predictor");
 }
 
 TEST_CASE("palpate says where a recording is broken") {
