@@ -40,7 +40,9 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t index) {
       << (panel.logarithmic ? "set logscale y\n" : "unset logscale y\n") << "plot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     out << (c == 0 ? "" : ", ") << "$data_" << index << '_' << c << " using 1:2 with lines lw 1.4"
-        << (panel.curves[c].dashed ? " dt 2" : "") << " title " << quoted(panel.curves[c].name) << " noenhanced";
+        << (panel.curves[c].dashed ? " dt 2" : "") << " lc "
+        << (panel.curves[c].colour > 0 ? panel.curves[c].colour : static_cast<int>(c) + 1) << " title "
+        << quoted(panel.curves[c].name) << " noenhanced";
   }
   out << '\n';
 }
@@ -50,8 +52,8 @@ std::string script(const Chart& chart, const std::string& svg_path) {
   out << "set terminal svg size 960," << 60 + 270 * chart.panels.size()
       << " dynamic background 'white' font 'sans,12'\nset output " << quoted(svg_path) << '\n';
   write_data(out, chart);
-  out << "set grid\nset key outside right top\nset multiplot layout " << chart.panels.size() << ",1 title "
-      << quoted(chart.title) << " noenhanced\n";
+  out << "set grid\nset key outside right top\nset lmargin 12\nset rmargin 26\nset multiplot layout "
+      << chart.panels.size() << ",1 title " << quoted(chart.title) << " noenhanced\n";
   for (std::size_t p = 0; p < chart.panels.size(); ++p) write_panel(out, chart.panels[p], p);
   out << "unset multiplot\n";
   return out.str();

@@ -11,6 +11,7 @@ struct Curve {
   std::string name;
   std::vector<double> x, y;
   bool dashed = false;
+  int colour = 0;  ///< of the palette, from 1; 0: the next one
 };
 
 /// One set of axes; panels of a chart stand below one another.

@@ -194,11 +194,15 @@ Chart palpation_chart(const Scene& scene, const std::vector<PalpationRun>& runs)
                {"total error (3.35)", "time (s)", "|e_tot|", {}, true}}};
   for (const PalpationRun& run : runs) {
     const std::string who = name(run.predictor);
-    chart.panels[1].curves.push_back(curve("tip, " + who, run.result.trace, &TracePoint::tip));
-    if (run.predictor != PredictorKind::ideal) {
-      chart.panels[2].curves.push_back(curve(who, run.result.trace, &TracePoint::prediction_error));
-    }
-    chart.panels[3].curves.push_back(curve(who, run.result.trace, &TracePoint::total_error));
+    const auto add = [&](std::size_t panel, const std::string& title, double TracePoint::*signal) {
+      Curve drawn = curve(title, run.result.trace, signal);
+      drawn.colour = static_cast<int>(run.predictor) + 2;  // the same in every panel
+      drawn.dashed = run.predictor == PredictorKind::ideal;
+      chart.panels[panel].curves.push_back(std::move(drawn));
+    };
+    add(1, "tip, " + who, &TracePoint::tip);
+    if (run.predictor != PredictorKind::ideal) add(2, who, &TracePoint::prediction_error);
+    add(3, who, &TracePoint::total_error);
   }
   return chart;
 }

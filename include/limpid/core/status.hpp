@@ -12,17 +12,17 @@ namespace limpid {
 /// What a hot call has to say about its inputs and its answer; joined by `|` over the blocks of a tick.
 enum class Status : std::uint32_t {
   ok = 0,
-  not_finite = 1U << 0,        ///< an input was NaN or infinite: the last good value was used
-  clock_backwards = 1U << 1,   ///< time did not advance: the call changed nothing
-  no_sample = 1U << 2,         ///< nothing has arrived yet: the initial value was used
-  out_of_order = 1U << 3,      ///< a sample not newer than the newest one was dropped
-  out_of_history = 1U << 4,    ///< an instant outside the stored history: the nearest entry was used
-  overflow = 1U << 5,          ///< a fixed store was full: the oldest entry was dropped
-  singular = 1U << 6,          ///< a pose at or near a singularity: a bounded answer was used
-  unreachable = 1U << 7,       ///< a target outside the workspace: the nearest reachable one was used
-  at_bound = 1U << 8,          ///< a parameter or a scheduled gain was held on its bound
-  limited = 1U << 9,           ///< a torque was reduced to its limit or its slew rate
-  joint_limit = 1U << 10,      ///< torque toward a near joint limit was removed
+  not_finite = 1U << 0,       ///< an input was NaN or infinite: the last good value was used
+  clock_backwards = 1U << 1,  ///< time did not advance: the call changed nothing
+  no_sample = 1U << 2,        ///< nothing has arrived yet: the initial value was used
+  out_of_order = 1U << 3,     ///< a sample not newer than the newest one was dropped
+  out_of_history = 1U << 4,  ///< an instant outside the stored history: the nearest entry was used, or a sample dropped
+  overflow = 1U << 5,        ///< a fixed store was full: the oldest entry was dropped
+  singular = 1U << 6,        ///< a pose at or near a singularity: a bounded answer was used
+  unreachable = 1U << 7,     ///< a target outside the workspace: the nearest reachable one was used
+  at_bound = 1U << 8,        ///< a parameter or a scheduled gain was held on its bound
+  limited = 1U << 9,         ///< a torque was reduced to its limit or its slew rate
+  joint_limit = 1U << 10,    ///< torque toward a near joint limit was removed
   workspace_limit = 1U << 11,  ///< torque toward the edge of the workspace was removed
   fault = 1U << 12,            ///< a latched fault: zero torque until a deliberate reset
   disconnected = 1U << 13,     ///< the device does not answer
