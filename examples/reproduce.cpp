@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The thesis's simulations with the printed gains, printed values beside ours.
+#include "common/output_file.hpp"
 #include "common/section.hpp"
 
 #include <CLI/CLI.hpp>
@@ -8,9 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <stdexcept>
 #include <string>
 
 namespace {
@@ -62,13 +61,6 @@ Json as_json(const SectionReport& report) {
   return {{"cases", cases}, {"figures", figures}};
 }
 
-void write_json(const std::string& path, const SectionReport& report) {
-  std::ofstream file(path);
-  file << as_json(report).dump(2) << '\n';
-  if (!file) throw std::runtime_error("--json: " + path + " cannot be written");
-  std::cout << "figures: " << path << '\n';
-}
-
 void write_charts(const std::string& folder, const SectionReport& report) {
   std::filesystem::create_directories(folder);
   for (const auto& [name, chart] : report.charts) {
@@ -93,9 +85,14 @@ int main(int argc, char** argv) {
     if (one->count() > 0 && section != "6.1.4") {
       throw CLI::ValidationError("--case", "goes with --section 6.1.4, got " + section);
     }
+    const std::string refusal = json.empty() ? std::string{} : refusal_of_output(json);
+    if (!refusal.empty()) throw CLI::ValidationError("--json", refusal);
     const SectionReport report = run_section(section, one->count() > 0 ? std::optional<int>(number) : std::nullopt);
     print(report);
-    if (!json.empty()) write_json(json, report);
+    if (!json.empty()) {
+      write_file(json, as_json(report).dump(2) + '\n');
+      std::cout << "figures: " << json << '\n';
+    }
     if (!plot.empty()) write_charts(plot, report);
     return 0;
   } catch (const CLI::ParseError& error) {

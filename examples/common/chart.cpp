@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "chart.hpp"
+#include "output_file.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -15,10 +16,14 @@ namespace {
 
 bool gnuplot_is_installed() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
 
-// A gnuplot string between single quotes: a quote is doubled, and labels are shown as they are.
+// A gnuplot string between single quotes: a quote is doubled; a line break would end it, and the command.
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) throw std::runtime_error("a chart's text has a control character");
+    result += c;
+    if (c == '\'') result += c;
+  }
   return result + "'";
 }
 
@@ -59,8 +64,8 @@ std::string script(const Chart& chart, const std::string& svg_path) {
   return out.str();
 }
 
-void write_csv(const Chart& chart, const std::string& path) {
-  std::ofstream out(path);
+std::string as_csv(const Chart& chart) {
+  std::ostringstream out;
   out.precision(10);
   out << "panel,curve,x,y\n";
   for (const Panel& panel : chart.panels) {
@@ -70,24 +75,36 @@ void write_csv(const Chart& chart, const std::string& path) {
       }
     }
   }
-  if (!out) throw std::runtime_error(path + ": cannot be written");
+  return out.str();
+}
+
+// gnuplot tells of a full disk neither by its exit code nor in words.
+bool is_whole_svg(const std::string& path) {
+  std::ifstream file(path);
+  std::string last, line;
+  while (std::getline(file, line)) {
+    if (!line.empty()) last = line;
+  }
+  return last.find("</svg>") != std::string::npos;
 }
 
 }  // namespace
 
 std::string draw(const Chart& chart, const std::string& svg_path) {
   if (!gnuplot_is_installed()) {
-    const std::string csv_path = std::filesystem::path(svg_path).replace_extension(".csv").string();
-    write_csv(chart, csv_path);
+    const std::string csv_path = std::filesystem::path(svg_path).replace_extension(".curves.csv").string();
+    write_file(csv_path, as_csv(chart));
     std::cerr << "gnuplot is not installed (Debian: gnuplot-nox): the curves are in " << csv_path << '\n';
     return csv_path;
   }
-  if (!std::ofstream(svg_path)) throw std::runtime_error(svg_path + ": cannot be written");
+  write_file(svg_path, "");
+  const std::string text = script(chart, svg_path);
   FILE* gnuplot = ::popen("gnuplot", "w");
   if (gnuplot == nullptr) throw std::runtime_error("gnuplot: cannot be started");
-  const std::string text = script(chart, svg_path);
   const bool written = std::fwrite(text.data(), 1, text.size(), gnuplot) == text.size();
-  if (::pclose(gnuplot) != 0 || !written) throw std::runtime_error(svg_path + ": gnuplot failed");
+  if (::pclose(gnuplot) != 0 || !written || !is_whole_svg(svg_path)) {
+    throw std::runtime_error(svg_path + ": gnuplot failed");
+  }
   return svg_path;
 }
 

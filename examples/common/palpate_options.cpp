@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "palpate_options.hpp"
 
+#include "output_file.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -26,6 +28,17 @@ struct Typed {
   throw CLI::ValidationError(option, accepts);
 }
 
+std::string text(double value) {
+  std::ostringstream words;
+  words << value;
+  return words.str();
+}
+
+// A path to write to.
+CLI::Validator output() {
+  return CLI::Validator([](std::string& typed) { return refusal_of_output(typed); }, "", "output");
+}
+
 // Finite numbers of [least, most]; `open` leaves `least` itself out.
 CLI::Validator within(double least, double most, bool open = false) {
   std::ostringstream words;
@@ -44,7 +57,8 @@ void add_options(CLI::App& app, Typed& typed) {
   const auto any = within(-1e6, 1e6);
   const auto positive = within(0, 1e6, true), not_negative = within(0, 1e6);
   const auto seconds = within(1e-6, 1e4);
-  CLI::Option* file = app.add_option("--force", typed.force_file, "recorded operator's force: CSV of time, force");
+  CLI::Option* file = app.add_option("--force", typed.force_file, "recorded operator's force: CSV of time, force")
+                          ->check(CLI::ExistingFile);
   app.add_option("--force-scale", typed.force_scale, "newtons per unit of the recording")->check(any)->needs(file);
   CLI::Option* cosine =
       app.add_option("--force-raised-cosine", typed.raised_cosine, "AMPLITUDE,HZ: A (1 - cos(2 pi f t))/2");
@@ -84,10 +98,10 @@ void add_options(CLI::App& app, Typed& typed) {
   app.add_option("--robot", typed.robot, "the simulated Omni")->check(CLI::IsMember({"ideal", "realistic"}));
   app.add_flag("--playback", typed.playback, "the operator's force does not act on the arm");
   app.add_option("--duration", typed.duration, "s; default 20, or the recording's length")->check(within(0, 1e5, true));
-  app.add_option("--rate", typed.rate, "ticks per second")->check(within(50, 1e5));
-  app.add_option("--json", typed.json, "write the figures here");
-  app.add_option("--csv", typed.csv, "write the signals here");
-  app.add_option("--plot", typed.plot, "draw force, motion and error here (SVG)");
+  app.add_option("--rate", typed.rate, "ticks per second")->check(within(50, 2e4));
+  app.add_option("--json", typed.json, "write the figures here")->check(output());
+  app.add_option("--csv", typed.csv, "write the signals here")->check(output());
+  app.add_option("--plot", typed.plot, "draw force, motion and error here (SVG)")->check(output());
 }
 
 void refuse_strangers(const CLI::App& app, const Typed& typed) {
@@ -113,6 +127,14 @@ void refuse_strangers(const CLI::App& app, const Typed& typed) {
     if (app.count(option) > 0 && !predicted("all") && !predicted("model")) {
       refuse(option, "goes with --predictor model, which is not asked for");
     }
+  }
+  std::vector<std::string> outputs;
+  for (const std::string& path : {typed.json, typed.csv, typed.plot}) {
+    if (path.empty()) continue;
+    if (std::count(outputs.begin(), outputs.end(), path) > 0) {
+      refuse("--json, --csv, --plot", "accept different files, got " + path + " twice");
+    }
+    outputs.push_back(path);
   }
   if (typed.known && !typed.start.empty()) refuse("--start", "accepts nothing with --known: nothing is estimated");
 }
@@ -146,10 +168,10 @@ Estimation estimation_of(const Typed& typed, const Tissue& tissue) {
   estimation.stiffness = typed.start[0];
   estimation.damping = typed.start[1];
   if (estimation.stiffness < 200 || estimation.stiffness > 2000) {
-    refuse("--start", "accepts K in [200, 2000], got " + std::to_string(estimation.stiffness));
+    refuse("--start", "accepts K in [200, 2000], got " + text(estimation.stiffness));
   }
   if (linear && (estimation.damping < 20 || estimation.damping > 40)) {
-    refuse("--start", "accepts B in [20, 40], got " + std::to_string(estimation.damping));
+    refuse("--start", "accepts B in [20, 40], got " + text(estimation.damping));
   }
   return estimation;
 }
@@ -161,8 +183,8 @@ PressForce force_of(const CLI::App& app, const Typed& typed) {
   PressForce force =
       typed.force_file.empty() ? press_like_force() : recorded_force(typed.force_file, typed.force_scale);
   if (app.count("--duration") > 0 && wanted > force.duration) {
-    refuse("--duration", "accepts up to " + std::to_string(in_seconds(force.duration)) + " s, the length of " +
-                             force.description + ", got " + std::to_string(typed.duration));
+    refuse("--duration", "accepts up to " + text(in_seconds(force.duration)) + " s, the length of " +
+                             force.description + ", got " + text(typed.duration));
   }
   if (app.count("--duration") > 0) force.duration = wanted;
   return force;
@@ -184,7 +206,7 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
   if (typed.gain.size() != 2 && typed.gain.size() != 6) {
     refuse("--gain", "accepts two or six numbers, got " + std::to_string(typed.gain.size()));
   }
-  if (typed.tool[0] <= 0) refuse("--tool", "accepts a mass above 0 kg, got " + std::to_string(typed.tool[0]));
+  if (typed.tool[0] < 1e-6) refuse("--tool", "accepts a mass of 1e-6 kg or more, got " + text(typed.tool[0]));
   Scene scene;
   scene.tissue = tissue_of(typed);
   scene.estimation = estimation_of(typed, scene.tissue);
@@ -196,14 +218,18 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
   scene.period = from_seconds(typed.sample_period);
   scene.delay = app.count("--delay") > 0 ? from_seconds(typed.delay) : scene.period;
   if (scene.period < scene.tick) {
-    refuse("--sample-period", "accepts no less than a tick of --rate, " + std::to_string(in_seconds(scene.tick)) +
-                                  " s, got " + std::to_string(typed.sample_period));
+    refuse("--sample-period", "accepts no less than a tick of --rate, " + text(in_seconds(scene.tick)) + " s, got " +
+                                  text(typed.sample_period));
   }
   const Duration longest_delay = std::min(64 * scene.period, 4000 * scene.tick);  // what sampler and predictor hold
   if (scene.delay >= longest_delay) {
-    refuse("--delay", "accepts less than 64 sample periods and 4000 ticks, " +
-                          std::to_string(in_seconds(longest_delay)) + " s, got " +
-                          std::to_string(in_seconds(scene.delay)));
+    refuse(app.count("--delay") > 0 ? "--delay" : "--sample-period",
+           "accepts a delay of less than 64 sample periods and 4000 ticks, " + text(in_seconds(longest_delay)) +
+               " s, got " + text(in_seconds(scene.delay)));
+  }
+  if (scene.duration / scene.tick > 10'000'000) {
+    refuse(app.count("--duration") > 0 ? "--duration" : "--force",
+           "accepts up to 1e7 ticks, got " + text(in_seconds(scene.duration)) + " s at " + text(typed.rate) + " Hz");
   }
   if (scene.duration <= scene.period + scene.delay) {
     refuse("--duration", "accepts more than the sample period and the delay together");

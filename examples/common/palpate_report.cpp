@@ -2,6 +2,7 @@
 #include "palpate_report.hpp"
 
 #include "chart.hpp"
+#include "output_file.hpp"
 #include "trace_curve.hpp"
 
 #include <nlohmann/json.hpp>
@@ -9,9 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <ostream>
-#include <stdexcept>
+#include <sstream>
 
 namespace limpid::examples {
 
@@ -150,38 +150,33 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
     if (hold != nullptr) entry["change"] = changes(result, *hold);
     entry["tick_ns"] = ticks(result.tick);
     entry["status"] = describe(result.status);
+    entry["fault"] = has(result.status, Status::fault);
     all.merge(result.tick);
   }
   json["tick_ns"] = ticks(all);
   return json;
 }
 
-void write_json(const std::string& path, const Scene& scene, const std::vector<PalpationRun>& runs) {
-  std::ofstream file(path);
-  file << report(scene, runs).dump(2) << '\n';
-  if (!file) throw std::runtime_error("--json: " + path + " cannot be written");
-}
-
-void write_csv(const std::string& path, const std::vector<PalpationRun>& runs) {
-  std::ofstream file(path);
-  file.precision(12);
-  file << "time_s,force_N,ideal_m";
+std::string as_csv(const std::vector<PalpationRun>& runs) {
+  std::ostringstream out;
+  out.precision(12);
+  out << "time_s,force_N,ideal_m";
   for (const PalpationRun& run : runs) {
     for (const char* column : {"predicted_m", "tip_m", "prediction_error", "total_error"}) {
-      file << ',' << name(run.predictor) << '_' << column;
+      out << ',' << name(run.predictor) << '_' << column;
     }
   }
-  file << '\n';
+  out << '\n';
   for (std::size_t i = 0; i < runs.front().result.trace.size(); ++i) {
     const TracePoint& first = runs.front().result.trace[i];
-    file << first.time << ',' << first.force << ',' << first.ideal;
+    out << first.time << ',' << first.force << ',' << first.ideal;
     for (const PalpationRun& run : runs) {
       const TracePoint& point = run.result.trace[i];
-      file << ',' << point.predicted << ',' << point.tip << ',' << point.prediction_error << ',' << point.total_error;
+      out << ',' << point.predicted << ',' << point.tip << ',' << point.prediction_error << ',' << point.total_error;
     }
-    file << '\n';
+    out << '\n';
   }
-  if (!file) throw std::runtime_error("--csv: " + path + " cannot be written");
+  return out.str();
 }
 
 Chart palpation_chart(const Scene& scene, const std::vector<PalpationRun>& runs) {
@@ -235,11 +230,11 @@ bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs) {
 
 void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs) {
   if (!options.json.empty()) {
-    write_json(options.json, options.scene, runs);
+    write_file(options.json, report(options.scene, runs).dump(2) + '\n');
     out << "figures: " << options.json << '\n';
   }
   if (!options.csv.empty()) {
-    write_csv(options.csv, runs);
+    write_file(options.csv, as_csv(runs));
     out << "signals: " << options.csv << '\n';
   }
   if (!options.plot.empty()) out << "plot: " << draw(palpation_chart(options.scene, runs), options.plot) << '\n';

@@ -44,7 +44,11 @@ Plant plant_of(const Scene& scene, const E& environment, const EnvironmentTheta<
     typename Simulated::Vector F_h = Simulated::Vector::Zero();
     F_h[0] = force;
     const auto [state, status] = tool->advance(now, F_h);
-    if (status != Status::ok) throw std::runtime_error("the tissue cannot be integrated: " + describe(status));
+    if (status != Status::ok) {
+      throw std::runtime_error(
+          "--tool, --stiffness, --damping, --force: the tool's motion is too fast to be integrated (" +
+          describe(status) + ")");
+    }
     return in_space(state);
   };
 }
