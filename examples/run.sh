@@ -14,5 +14,4 @@ cmake --preset release -D LIMPID_BUILD_BENCH=OFF
 cmake --build --preset release --target palpate
 
 result=build/release/palpate
-build/release/examples/palpate --predictor all --json $result.json --csv $result.csv --plot $result.svg "$@"
-echo "plot: $PWD/$result.svg"
+exec build/release/examples/palpate --predictor all --json $result.json --csv $result.csv --plot $result.svg "$@"

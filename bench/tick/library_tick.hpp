@@ -12,6 +12,7 @@
 
 #include "tick/straightforward_tick.hpp"
 
+#include <utility>
 #include <vector>
 
 namespace limpid::bench {
@@ -117,43 +118,109 @@ struct TickParts {
   Eigen::Matrix<Scalar, 3, 1> wall;
 };
 
-/// The tick composed from blocks.
-/// @tparam Wanted  signal asked for: the controller's torque, or the limiter's
-template <typename Wanted, typename Scalar>
-[[nodiscard]] auto composed_tick() {
+/// The controller as a block for a loop without limiter, in which it has the torque that it wants.
+template <typename Controller, Robot R>
+struct UnlimitedTracking {
+  using Scalar = RobotScalar<R>;
+  using reads = signals<palpation::MeasuredState<R>, palpation::DesiredState<R>, palpation::ForceOnArm<Scalar>>;
+  using writes = signals<palpation::WantedTorque<R>>;
+
+  Controller component;
+
+  Reported<JointVector<R>> operator()(Time now, const typename palpation::MeasuredState<R>::value_type& measured,
+                                      const typename palpation::DesiredState<R>::value_type& desired,
+                                      const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
+    const auto [tau, status] = component.update(now, measured.joint_state(), desired, F_h);
+    return {tau, status};
+  }
+};
+
+/// A loop of these parts; of all in it but what tracks, in any order.
+template <typename Wanted, typename Scalar, typename... Rest>
+[[nodiscard]] auto tick_of(const TickParts<Scalar>& parts, Rest... rest) {
   using namespace palpation;
   using P = TickParts<Scalar>;
   using Arm = typename P::Arm;
-  const P parts;
   return make_loop<wants<Wanted>,
                    inputs<OperatorForce<Scalar>, ForceOnArm<Scalar>, TrueTool<3, Scalar>, MeasuredState<Arm>>>(
-      SafetyBlock<Arm>{parts.limiter}, TrackingBlock<typename P::Controller, Arm>{parts.controller},
-      KinematicsBlock<typename P::Kinematics, Arm, 3>{parts.kinematics, parts.wall},
+      std::move(rest)..., KinematicsBlock<typename P::Kinematics, Arm, 3>{parts.kinematics, parts.wall},
       AdaptivePredictionBlock<typename P::Predictor, typename P::Env>{parts.predictor},
       AdaptationBlock<typename P::Env>{parts.estimator}, SamplingBlock<3, Scalar>{parts.sampled});
 }
 
-/// The same calls written by hand, up to the controller's torque.
+/// The tick composed from blocks, up to the controller's torque.
+template <typename Scalar>
+[[nodiscard]] auto composed_tick() {
+  using P = TickParts<Scalar>;
+  using Arm = typename P::Arm;
+  const P parts;
+  return tick_of<palpation::WantedTorque<Arm>>(parts, UnlimitedTracking<typename P::Controller, Arm>{parts.controller});
+}
+
+/// The tick composed from blocks, up to what the device may have.
+template <typename Scalar>
+[[nodiscard]] auto composed_safe_tick() {
+  using P = TickParts<Scalar>;
+  using Arm = typename P::Arm;
+  const P parts;
+  return tick_of<palpation::AllowedTorque<Arm>>(
+      parts, palpation::SafetyBlock<Arm>{parts.limiter},
+      palpation::TrackingBlock<typename P::Controller, Arm>{parts.controller});
+}
+
+/// The same calls written by hand.
 template <typename Scalar>
 struct HandWrittenTick : TickParts<Scalar> {
+  using Vector = Eigen::Matrix<Scalar, 3, 1>;
+
+  struct Wanted {
+    InverseMotion<3, Scalar> motion;
+    Status status;
+  };
   struct Output {
-    Eigen::Matrix<Scalar, 3, 1> torque;
+    Vector torque;
+    Status status;
+  };
+  struct SafeOutput {
+    SafeTorque<3, Scalar> torque;
     Status status;
   };
 
-  [[gnu::always_inline]] Output step(Time now, const Eigen::Matrix<Scalar, 3, 1>& F_h,
-                                     const Eigen::Matrix<Scalar, 3, 1>& on_arm, const ToolState<3, Scalar>& tool,
-                                     const DeviceState<3, Scalar>& device) noexcept {
+  HandWrittenTick() : TickParts<Scalar>(TickParts<Scalar>::settings()) {}
+
+  [[gnu::always_inline]] Wanted wanted(Time now, const Vector& F_h, const ToolState<3, Scalar>& tool,
+                                       const DeviceState<3, Scalar>& device) noexcept {
     const auto seen = this->sampled.update(now, tool);
     Status status = device.status | seen.status | this->estimator.update(now, seen);
     status |= this->predictor.use(this->estimator.estimate());
     if (seen.fresh) status |= this->predictor.observe({seen.value, seen.taken, seen.arrived});
     const auto [motion, predicted] = this->predictor.advance(now, F_h.array());
-    const auto wanted =
+    const auto joints =
         this->kinematics.inverse(this->wall + motion.x.matrix(), motion.v.matrix(), motion.a.matrix(), device.q);
-    const auto [tau, tracked] = this->controller.update(now, device.joint_state(), wanted, on_arm);
-    return {tau, status | predicted | wanted.status | tracked};
+    return {joints, status | predicted | joints.status};
   }
+
+  /// Up to the controller's torque.
+  [[gnu::always_inline]] Output step(Time now, const Vector& F_h, const Vector& on_arm,
+                                     const ToolState<3, Scalar>& tool, const DeviceState<3, Scalar>& device) noexcept {
+    const auto [motion, status] = wanted(now, F_h, tool, device);
+    const auto [tau, tracked] = this->controller.update(now, device.joint_state(), motion, on_arm);
+    return {tau, status | tracked};
+  }
+
+  /// Up to what the device may have.
+  [[gnu::always_inline]] SafeOutput safe_step(Time now, const Vector& F_h, const Vector& on_arm,
+                                              const ToolState<3, Scalar>& tool,
+                                              const DeviceState<3, Scalar>& device) noexcept {
+    const auto [motion, status] = wanted(now, F_h, tool, device);
+    const auto [tau, tracked] = this->controller.update(now, device.joint_state(), motion, on_arm, applied_);
+    const auto [torque, limited] = this->limiter.limit(now, device.joint_state(), tau, status | tracked);
+    applied_ = torque.value();
+    return {torque, status | tracked | limited};
+  }
+
+ private:
+  Vector applied_ = Vector::Zero();  // N m, in the last tick
 };
 
 }  // namespace limpid::bench

@@ -77,6 +77,60 @@ void check_unaffected(const P& start, Disturb&& disturb) {
   }
 }
 
+/// A sample stamped in the future leaves no trace but what the tick says of it.
+template <Predictor P>
+void check_future_sample(const P& start) {
+  using Traits = PredictorTraits<P>;
+  using std::chrono::milliseconds;
+  check_unaffected(start, [](P& p) {
+    PredictorScene<P> other(6);
+    CHECK(Traits::observe(p, other.sample(milliseconds(45), milliseconds(41))) == Status::clock_backwards);
+  });
+  PredictorScene<P> scene(7), twin_scene(7);
+  P predictor = start, twin = start;
+  scene.run(predictor, 0, 40);
+  twin_scene.run(twin, 0, 40);
+  CHECK(Traits::observe(predictor, scene.sample(milliseconds(90), milliseconds(90))) == Status::ok);
+  CHECK(Traits::observe(predictor, scene.sample(milliseconds(95), milliseconds(95))) == Status::ok);
+  for (int k = 40; k < 60; ++k) {
+    const auto F = scene.force();
+    if (k == 41) {
+      const auto good = scene.sample(milliseconds(38), milliseconds(k));
+      for (P* p : {&predictor, &twin}) CHECK(Traits::observe(*p, good) == Status::ok);
+    }
+    const auto mine = Traits::advance(predictor, milliseconds(k), F), other = Traits::advance(twin, milliseconds(k), F);
+    REQUIRE(same(mine.motion, other.motion));
+    REQUIRE(mine.status == (other.status | when(k == 40, Status::out_of_history)));
+  }
+}
+
+/// After one absurd but finite sample, one good sample is enough for good answers.
+template <Predictor P>
+void check_recovery(const P& start) {
+  using Traits = PredictorTraits<P>;
+  using Scalar = typename PredictorScene<P>::Scalar;
+  using std::chrono::milliseconds;
+  Scalar huge = std::numeric_limits<Scalar>::max();
+  for (int size = 0; size < 7; ++size, huge /= 10) {
+    CAPTURE(size);
+    PredictorScene<P> scene(8);
+    P p = start;
+    scene.run(p, 0, 40);
+    auto absurd = scene.sample(milliseconds(38), milliseconds(40));
+    absurd.value.x.setConstant(huge);
+    absurd.value.v.setConstant(-huge);
+    (void)Traits::observe(p, absurd);
+    for (int k = 40; k < 50; ++k) CHECK(is_finite(Traits::advance(p, milliseconds(k), scene.force()).motion));
+    CHECK(Traits::observe(p, scene.sample(milliseconds(46), milliseconds(50))) == Status::ok);
+    CHECK(is_finite(Traits::advance(p, milliseconds(50), scene.force()).motion));
+    for (int k = 51; k < 100; ++k) {
+      const auto answer = Traits::advance(p, milliseconds(k), scene.force());
+      REQUIRE_FALSE(has(answer.status, Status::not_finite));
+      REQUIRE(answer.motion.x.abs().maxCoeff() < 1);  // m; the good samples and the forces are of some millimetres
+    }
+  }
+}
+
 /// Puts any predictor through the laws of the concept. `start` has seen nothing yet.
 template <Predictor P>
 void check_predictor(const P& start) {
@@ -135,6 +189,9 @@ void check_predictor(const P& start) {
         Traits::advance(strained, milliseconds(7 * k), k % 3 == 0 ? Scene::Vector::Constant(huge) : scene.force());
     CHECK(is_finite(answer.motion));
   }
+
+  check_future_sample(start);
+  check_recovery(start);
 
   P hot = start;
   Scene hot_scene(5);

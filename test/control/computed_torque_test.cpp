@@ -132,6 +132,12 @@ TEST_CASE("an update does not allocate") {
 TEST_CASE("gains and parameters that cannot serve are refused with their field") {
   using Controller = ComputedTorque<Pendulum<>>;
   using One = Eigen::Matrix<double, 1, 1>;
+  CHECK_THROWS_WITH_AS(Controller({.Kd = One(1.0), .theta = {1, 1, 1}}),
+                       "ComputedTorque: Lambda: expected finite and > 0, got nan", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Controller({.Lambda = One(1.0), .theta = {1, 1, 1}}),
+                       "ComputedTorque: Kd: expected finite and > 0, got nan", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Controller({.Lambda = One(1.0), .Kd = One(1.0)}),
+                       "ComputedTorque: theta: expected finite, got nan nan nan", std::invalid_argument);
   CHECK_THROWS_WITH_AS(Controller({.Lambda = One(0.0), .Kd = One(1.0), .theta = {1, 1, 1}}),
                        "ComputedTorque: Lambda: expected finite and > 0, got 0", std::invalid_argument);
   CHECK_THROWS_WITH_AS(Controller({.Lambda = One(1.0), .Kd = One(-2.0), .theta = {1, 1, 1}}),

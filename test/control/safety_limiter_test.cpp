@@ -5,9 +5,12 @@
 #include <support/no_allocation.hpp>
 #include <support/pendulum.hpp>
 
+#include <Eigen/LU>
+
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -25,7 +28,7 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Limiter = SafetyLimiter<Omni<>>;
 
-const JointState<3> free_pose{{0.1, 0.7, -1.4}, {0, 0, 0}};  // 0.1 rad and 1 cm clear of every limit
+const JointState<3> free_pose{{0.1, 0.7, -1.4}, {0, 0, 0}};  // 0.15 rad and 15 mm clear of every limit
 
 // A limiter that has worked up to `torque`, 100 ticks of 1 ms.
 Limiter at_work(const Vector& torque) {
@@ -82,6 +85,56 @@ TEST_CASE("torque away from a near limit passes") {
   CHECK(limiter.limit(100ms, near, {-0.2, 0, 0}).torque.value() == Vector(-0.2, 0, 0));
 }
 
+TEST_CASE("over the band before its margin a rule lets less and less torque pass, and without a band all of it") {
+  for (const double clear : {0.05, 0.04, 0.025, 0.01}) {
+    CAPTURE(clear);
+    Limiter limiter({}), sudden({.joint_band = 0});
+    JointState<3> near = free_pose;
+    near.q[0] = limpid::Omni<>{}.limits().upper[0] - 0.1 - clear;
+    for (int k = 0; k < 100; ++k) {
+      (void)limiter.limit(k * 1ms, near, {9, 0.1, 0.1});
+      (void)sudden.limit(k * 1ms, near, {9, 0.1, 0.1});
+    }
+    const auto [torque, status] = limiter.limit(100ms, near, {9, 0.1, 0.1});
+    CHECK(torque.value()[0] == doctest::Approx(0.30 / 1.3 * clear / 0.05).epsilon(1e-13));  // roundings of q
+    CHECK(torque.value().tail<2>() == Eigen::Vector2d(0.1, 0.1));
+    CHECK(status == (clear < 0.05 ? Status::joint_limit : Status::limited));
+    CHECK(sudden.limit(100ms, near, {9, 0.1, 0.1}).torque.value()[0] == doctest::Approx(0.30 / 1.3).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("near the base the tip is not pressed toward it, and what else the hand feels stays") {
+  const Vector q(0.2, 1.2, -1.95);  // r = 0.144 m: 0.049 + 0.095; see below
+  const auto pose = Omni<>{}.at(q);
+  const double radius = pose.position().head<2>().norm();
+  const Vector outward(std::cos(0.2), std::sin(0.2), 0);
+  // F_h at the tip by J' F = tau, eq. (3.7)'s dual, with no formula of the limiter's
+  const auto force = [&](const Vector& tau) { return Vector(pose.jacobian().transpose().partialPivLu().solve(tau)); };
+  Limiter limiter({.workspace_margin = radius - 0.12 + 0.001});
+  const Vector inward = pose.jacobian().transpose() * Vector(-0.5 * outward + Vector(0, 0, 0.3));
+  const Vector away = pose.jacobian().transpose() * Vector(0.5 * outward + Vector(0, 0, 0.3));
+  for (int k = 0; k < 100; ++k) (void)limiter.limit(k * 1ms, {q, Vector::Zero()}, inward);
+  const auto held = limiter.limit(100ms, {q, Vector::Zero()}, inward);
+  CHECK(force(inward).dot(outward) == doctest::Approx(-0.5));
+  CHECK(std::abs(force(held.torque.value()).dot(outward)) < 1e-12);  // roundings of 0.2 N m over 5 mm of det J / r
+  CHECK(held.status == Status::workspace_limit);
+  for (int k = 101; k < 200; ++k) (void)limiter.limit(k * 1ms, {q, Vector::Zero()}, away);
+  CHECK(limiter.limit(200ms, {q, Vector::Zero()}, away).torque.value() == away);
+}
+
+TEST_CASE("what a rule adds to a joint comes at the slew rate") {
+  Limiter limiter({.slew = Vector(1, 1, 1)});
+  const JointState<3> before{{0, 0.9, -1.6}, {0, 0, 0}};
+  for (int k = 0; k < 500; ++k) (void)limiter.limit(k * 1ms, before, {0, 0.2, 0});
+  REQUIRE(limiter.limit(500ms, before, {0, 0.2, 0}).torque.value() == Vector(0, 0.2, 0));
+  const JointState<3> behind{{0, 1.2, -2.1},
+                             {0, 0, 0}};  // r = 0.13: the nearest torque that presses outward has tau3 > 0
+  const Vector torque = limiter.limit(501ms, behind, {0, 0.2, 0}).torque.value();
+  CHECK(torque[2] > 0);
+  CHECK(torque[2] <= 0.001 + 1e-16);  // N m/s for a millisecond
+  CHECK(torque[1] < 0.2);
+}
+
 TEST_CASE("near (5.4) neither joint 2 nor joint 3 is pushed further") {
   Limiter limiter = at_work({0.1, 0.1, 0.1});
   const auto [torque, status] = limiter.limit(101ms, {{0, 1.2, -1.085}, {0, 0, 0}}, {0.1, 0.1, 0.1});  // sum 0.115
@@ -90,7 +143,7 @@ TEST_CASE("near (5.4) neither joint 2 nor joint 3 is pushed further") {
 }
 
 TEST_CASE("the workspace is watched unless it is switched off") {
-  const JointState<3> stretched{{0, 0.3, -0.36}, {0, 0, 0}};  // |x| = 0.2607; joint 3 0.11 rad from its limit
+  const JointState<3> stretched{{0, 0.3, -0.41}, {0, 0, 0}};  // |x| = 0.2594; joint 3 0.16 rad from its limit
   for (const bool watched : {true, false}) {
     Limiter limiter({.workspace = watched});
     for (int k = 0; k < 100; ++k) (void)limiter.limit(k * 1ms, stretched, {0, -0.1, 0.1});
@@ -215,6 +268,10 @@ TEST_CASE("settings that cannot serve are refused with their field") {
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(Limiter({.joint_margin = -0.5}),
                        "SafetyLimiter: joint_margin: expected finite and >= 0, got -0.5", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Limiter({.joint_band = -0.5}), "SafetyLimiter: joint_band: expected finite and >= 0, got -0.5",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Limiter({.workspace_band = -0.5}),
+                       "SafetyLimiter: workspace_band: expected finite and >= 0, got -0.5", std::invalid_argument);
   CHECK_THROWS_WITH_AS(Limiter({.workspace_margin = -0.5}),
                        "SafetyLimiter: workspace_margin: expected finite and >= 0, got -0.5", std::invalid_argument);
   CHECK_THROWS_WITH_AS(Limiter({.joint_overshoot = -0.5}),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/control/computed_torque.hpp>
+#include <limpid/control/safety_limiter.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
+#include <limpid/device/simulated_omni.hpp>
 #include <limpid/robot/omni.hpp>
 
 #include <support/no_allocation.hpp>
@@ -9,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 using limpid::ComputedTorque;
@@ -187,6 +190,106 @@ TEST_CASE("a finite input that would make an estimate overflow changes nothing")
   CHECK(controller.theta_hat() == Eigen::Vector3d(0.5, 8.0, 0.25));
 }
 
+TEST_CASE("over an interval in which the device had another torque nothing is adapted, and after it all goes on") {
+  SlotineLiAdaptive<Pendulum<>> controller(pendulum_settings()), twin(pendulum_settings());
+  const JointState<1> is{One(0.3), One(1.0)};
+  const DesiredJoints<1> wanted{One(0.5), One(2.0), One(16.0)};
+  const One first = controller.update(0ms, is, wanted, {0, 0, 0}, One(0.0)).tau;
+  (void)controller.update(1ms, is, wanted, {0, 0, 0}, One(0.0));  // a limiter's fault
+  CHECK(controller.theta_hat() == Eigen::Vector3d(0.5, 8.0, 0.25));
+  const One again = controller.update(2ms, is, wanted, {0, 0, 0}, One(std::nextafter(first[0], 0.0))).tau;
+  CHECK(controller.theta_hat() == Eigen::Vector3d(0.5, 8.0, 0.25));
+  (void)controller.update(3ms, is, wanted, {0, 0, 0}, again);
+  (void)twin.update(2ms, is, wanted, {0, 0, 0});
+  (void)twin.update(3ms, is, wanted, {0, 0, 0});
+  CHECK(controller.theta_hat() == twin.theta_hat());
+  CHECK(controller.theta_hat() != Eigen::Vector3d(0.5, 8.0, 0.25));
+}
+
+TEST_CASE("a torque that was not had is remembered over a call that is refused") {
+  SlotineLiAdaptive<Pendulum<>> controller(pendulum_settings());
+  const JointState<1> is{One(0.3), One(1.0)};
+  const DesiredJoints<1> wanted{One(0.5), One(2.0), One(16.0)};
+  const One nan(std::numeric_limits<double>::quiet_NaN());
+  const One tau = controller.update(0ms, is, wanted, {0, 0, 0}, One(0.0)).tau;
+  CHECK(controller.update(1ms, {nan, nan}, wanted, {0, 0, 0}, One(0.0)).status == Status::not_finite);
+  CHECK(controller.update(2ms, is, wanted, {0, 0, 0}, nan).status == Status::not_finite);
+  CHECK(controller.update(3ms, is, wanted, {0, 0, 0}, tau).tau == tau);
+  CHECK(controller.theta_hat() == Eigen::Vector3d(0.5, 8.0, 0.25));
+}
+
+TEST_CASE("a latched fault of minutes winds nothing up, and after the reset the arm goes on as before") {
+  const Vector<double> start(0, 0.8, -1.5);
+  limpid::SimulatedOmni<> arm({.q0 = start});
+  SlotineLiAdaptive<Omni<>> controller(thesis_settings<double>());
+  limpid::SafetyLimiter<Omni<>> limiter({});
+  const DesiredJoints<3> wanted{start + Vector<double>(0.1, 0.1, -0.1), {0, 0, 0}, {0, 0, 0}};
+  Vector<double> torque(0, 0, 0);
+  const auto tick = [&](Time now, Status upstream) {
+    const auto is = arm.read(now).joint_state();
+    const auto tau = controller.update(now, is, wanted, {0, 0, 0}, torque).tau;
+    const auto safe = limiter.limit(now, is, tau, upstream);
+    torque = safe.torque.value();
+    return safe;
+  };
+  Time now = 0ms;
+  for (; now < 100ms; now += 1ms) (void)tick(now, Status::ok);  // the arm stands: nobody moves it on
+  (void)tick(now, Status::disconnected);
+  const auto theta_hat = controller.theta_hat();
+  now += 1ms;
+  (void)tick(now, Status::ok);  // the interval before still had the wanted torque
+  const auto latched = controller.theta_hat();
+  CHECK((latched - theta_hat).cwiseAbs().maxCoeff() < 1e-4);
+  for (const Time end = now + 120s; now < end;) {
+    now += 1ms;
+    REQUIRE(tick(now, Status::ok).torque.value() == Vector<double>::Zero());
+  }
+  CHECK(controller.theta_hat() == latched);
+  limiter.reset(now);
+  const Time reset = now;
+  while (now < reset + 20ms) {
+    now += 1ms;
+    REQUIRE(!has(tick(now, Status::ok).status, Status::fault));
+  }
+  CHECK((controller.theta_hat() - latched).cwiseAbs().maxCoeff() < 1e-3);  // 20 ms of errors of 0.1 rad
+}
+
+TEST_CASE("an impossible rate moves no parameter and says so") {
+  for (const double rate : {1e3, 1e20, 1e60, -1e60}) {
+    CAPTURE(rate);
+    SlotineLiAdaptive<Omni<>> controller(thesis_settings<double>());
+    JointState<3> is{{0, 0.9, -1.3}, {0, 0, 0}};
+    const DesiredJoints<3> wanted{{0.1, 0.9, -1.4}, {0, 0, 0}, {0, 0, 0}};
+    (void)controller.update(0ms, is, wanted, {0, 0, 0});
+    CHECK(controller.update(1ms, is, wanted, {0, 0, 0}).status == Status::ok);
+    const auto theta_hat = controller.theta_hat();
+    is.qdot[1] = rate;
+    CHECK(controller.update(2ms, is, wanted, {0, 0, 0}).status == Status::at_bound);
+    is.qdot[1] = 0;
+    CHECK(controller.update(3ms, is, wanted, {0, 0, 0}).status == Status::at_bound);  // its mean with the last one
+    CHECK(controller.theta_hat() == theta_hat);
+    CHECK(controller.update(4ms, is, wanted, {0, 0, 0}).status == Status::ok);
+    CHECK(controller.theta_hat() != theta_hat);
+  }
+}
+
+TEST_CASE("a step that adds more to the Lyapunov function than the controller takes out is left out") {
+  auto settings = pendulum_settings();
+  settings.Gamma = {0, 1, 0};
+  // at rest at q = pi/2, q_e' = 1: delta = -1, phi_r' delta = (., -1, .): h^2 / 2 against 2 h
+  const double quarter = std::acos(0.0);
+  settings.longest_step = 10s;
+  for (const Time h : {Time{3900ms}, Time{4100ms}}) {
+    SlotineLiAdaptive<Pendulum<>> controller(settings);
+    const JointState<1> is{One(quarter), One(0.0)};
+    const DesiredJoints<1> wanted{One(quarter), One(1.0), One(0.0)};
+    (void)controller.update(0ms, is, wanted, {0, 0, 0});
+    const Status status = controller.update(h, is, wanted, {0, 0, 0}).status;
+    CHECK(status == (h < 4s ? Status::ok : Status::at_bound));
+    CHECK(controller.theta_hat()[1] == doctest::Approx(h < 4s ? 11.9 : 8.0));
+  }
+}
+
 TEST_CASE("an update does not allocate") {
   SlotineLiAdaptive<Omni<>> controller(thesis_settings<double>());
   const auto is = some_state(0.5);
@@ -194,11 +297,20 @@ TEST_CASE("an update does not allocate") {
   limpid::test::check_no_allocation([&] {
     (void)controller.update(1ms, is, wanted, {1, 2, 3});
     (void)controller.update(2ms, is, wanted, {1, 2, 3});
+    (void)controller.update(3ms, is, wanted, {1, 2, 3}, {0, 0, 0});
   });
 }
 
 TEST_CASE("settings that cannot serve are refused with their field") {
   using Controller = SlotineLiAdaptive<Pendulum<>>;
+  CHECK_THROWS_WITH_AS(Controller({.Kd = One(2.0), .Gamma = {1, 1, 1}, .theta0 = {1, 1, 1}}),
+                       "SlotineLiAdaptive: Lambda: expected finite and > 0, got nan", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Controller({.Lambda = One(4.0), .Gamma = {1, 1, 1}, .theta0 = {1, 1, 1}}),
+                       "SlotineLiAdaptive: Kd: expected finite and > 0, got nan", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Controller({.Lambda = One(4.0), .Kd = One(2.0), .theta0 = {1, 1, 1}}),
+                       "SlotineLiAdaptive: Gamma: expected finite and >= 0, got nan nan nan", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Controller({.Lambda = One(4.0), .Kd = One(2.0), .Gamma = {1, 1, 1}}),
+                       "SlotineLiAdaptive: theta0: expected finite, got nan nan nan", std::invalid_argument);
   auto settings = pendulum_settings();
   settings.Lambda[0] = -1;
   CHECK_THROWS_WITH_AS(Controller{settings}, "SlotineLiAdaptive: Lambda: expected finite and > 0, got -1",

@@ -102,3 +102,30 @@ TEST_CASE("neither setting nor stepping asks for memory") {
     step.advance(x, v, Eigen::Array3d::Ones(), Eigen::Array3d::Ones());
   });
 }
+
+TEST_CASE_TEMPLATE("a size beyond the scalar's range ends in NaN, not in an endless loop", Scalar, float, double,
+                   long double) {
+  constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity(), largest = std::numeric_limits<Scalar>::max();
+  constexpr Scalar nan = std::numeric_limits<Scalar>::quiet_NaN();
+  const auto answer = [](Scalar kappa, Scalar beta, Scalar h) {
+    SecondOrderStep<1, Scalar> step;
+    step.set(One<Scalar>(kappa), One<Scalar>(beta), h);
+    One<Scalar> x(Scalar(1)), v(Scalar(2)), none(Scalar(0));
+    step.advance(x, v, none, none);
+    return x[0];
+  };
+  for (const Scalar bad : {infinity, -infinity, nan}) {
+    CHECK(std::isnan(answer(bad, 30, Scalar(0.001))));
+    CHECK(std::isnan(answer(1000, bad, Scalar(0.001))));
+    CHECK(std::isnan(answer(1000, 30, bad)));
+  }
+  CHECK(std::isnan(answer(1, largest, 4)));  // beta h overflows
+  CHECK(std::abs(answer(0, largest, Scalar(0.5)) - 1) <=
+        4 * std::numeric_limits<Scalar>::epsilon());  // at rest at once
+}
+
+// Their layout must not depend on compiler flags: two translation units may be compiled for different processors.
+static_assert(limpid::lanes_for<float>(3) == 4 && limpid::lanes_for<double>(3) == 4);
+static_assert(limpid::lanes_for<long double>(3) == 3 && limpid::lanes_for<double>(2) == 2);
+static_assert(sizeof(limpid::Lanes<3, double>) == 4 * sizeof(double));
+static_assert(alignof(limpid::Lanes<3, double>) == alignof(double));

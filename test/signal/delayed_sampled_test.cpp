@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <random>
@@ -126,7 +127,7 @@ TEST_CASE("of several that arrive in one tick the one taken last is held") {
 }
 
 TEST_CASE("a sample overtaken on its way is dropped on arrival, and said so") {
-  DelayedSampled<double> signal({.period = 1ms, .delay = 0ms});
+  DelayedSampled<double> signal({.period = 10ms, .delay = 0ms});
   (void)signal.offer({.value = 1, .taken = 1ms, .arrived = 20ms});
   (void)signal.offer({.value = 2, .taken = 2ms, .arrived = 10ms});
   CHECK(signal.update(10ms).value == 2);
@@ -220,6 +221,51 @@ TEST_CASE("the multiples of the period go on before the start of the clock") {
   CHECK(signal.update(0ms, 5.0).value == 5);
 }
 
+TEST_CASE("when samples stop coming, what is held is stale from the longest age on") {
+  DelayedSampled<double> signal({.period = 10ms, .delay = 20ms});  // the delay and ten periods: 120 ms
+  for (int tick = 0; tick <= 120; ++tick) REQUIRE(signal.update(tick * 1ms).status == Status::no_sample);
+  CHECK(signal.update(121ms).status == (Status::no_sample | Status::stale));  // since the first tick
+  CHECK(signal.offer({.value = 1, .taken = 110ms, .arrived = 130ms}) == Status::ok);
+  CHECK(signal.update(130ms).status == Status::ok);
+  CHECK(signal.update(230ms).status == Status::ok);
+  const Held<double> old = signal.update(230ms + 1ns);
+  CHECK(old.status == Status::stale);
+  CHECK(old.value == 1);
+  CHECK(signal.offer({.value = 2, .taken = 115ms, .arrived = 240ms}) == Status::ok);
+  const Held<double> late = signal.update(240ms);  // newer, and yet too old
+  CHECK(late.value == 2);
+  CHECK(late.status == Status::stale);
+  CHECK(signal.offer({.value = 3, .taken = 235ms, .arrived = 250ms}) == Status::ok);
+  CHECK(signal.update(250ms).status == Status::ok);
+}
+
+TEST_CASE("lost samples of the sampler's own make what is held stale, until one is not lost") {
+  DelayedSampled<double> signal({.period = 10ms, .delay = 5ms, .longest_age = 40ms});
+  for (int tick = 0; tick < 200; ++tick) {
+    CAPTURE(tick);
+    const bool lost = tick >= 55 && tick < 125;
+    const Held<double> held = signal.update(tick * 1ms, lost ? not_a_number : tick);
+    // the last good sample is of 50 ms, the next one of 130 ms arrives at 135 ms
+    REQUIRE(has(held.status, Status::stale) == (tick > 50 + 40 && tick < 135));
+  }
+}
+
+TEST_CASE("regular sampling is never stale, whatever the period, the delay and the ticks") {
+  std::mt19937 random(19010101);
+  const auto uniform = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  for (int run = 0; run < 200; ++run) {
+    const Duration period{uniform(1, 400)}, delay{std::min<Duration::rep>(uniform(0, 5000), 63 * period.count())};
+    CAPTURE(period.count());
+    CAPTURE(delay.count());
+    DelayedSampled<double> signal({.period = period, .delay = delay});
+    Time now{};
+    for (int tick = 0; tick < 300; ++tick) {
+      now += Duration(uniform(1, run % 2 == 0 ? 40 : 4000));  // up to thousands of periods
+      REQUIRE_FALSE(has(signal.update(now, tick).status, Status::stale));
+    }
+  }
+}
+
 TEST_CASE("no call allocates") {
   DelayedSampled<limpid::ToolState<3>> signal({.period = 2ms, .delay = 5ms});
   limpid::test::check_no_allocation([&] {
@@ -239,6 +285,12 @@ TEST_CASE("settings that cannot serve are refused") {
   CHECK_THROWS_WITH_AS(Signal({.period = 1s, .delay = 4s}), "DelayedSampled: delay: expected below 4 periods, got 4 s",
                        std::invalid_argument);
   CHECK_NOTHROW(Signal({.period = 1s, .delay = 3999ms}));
+  CHECK_THROWS_WITH_AS(Signal({.period = 1s, .delay = 2s, .longest_age = 2999ms}),
+                       "DelayedSampled: longest_age: expected at least the delay and a period, got 2.999 s",
+                       std::invalid_argument);
+  CHECK_NOTHROW(Signal({.period = 1s, .delay = 2s, .longest_age = 3s}));
+  CHECK_NOTHROW(Signal({.period = Duration::max(), .delay = 0s}));  // ten of them would overflow
+  CHECK_NOTHROW(Signal({.period = 1s, .delay = 2s, .longest_age = Duration::max()}));
   CHECK_THROWS_WITH_AS(Signal({.period = 1s, .delay = 1s}, not_a_number),
                        "DelayedSampled: initial: expected finite, got a value that is not", std::invalid_argument);
 }

@@ -109,3 +109,12 @@ TEST_CASE("a time constant that cannot be one is refused") {
   CHECK_THROWS_WITH_AS(FilteredDerivative<1>({.time_constant = std::numeric_limits<double>::infinity()}),
                        "FilteredDerivative: time_constant: expected finite and > 0, got inf", std::invalid_argument);
 }
+
+TEST_CASE_TEMPLATE("with a time constant far above the ticks a ramp is followed to roundings", Scalar, float, double) {
+  FilteredDerivative<1, Scalar> derivative({.time_constant = Scalar(16)});
+  for (int tick = 0; tick <= 1000; ++tick) {
+    const Scalar value = derivative.update(tick * 1ms, One<Scalar>(Scalar(tick) / 1024)).value[0];  // exact inputs
+    const long double exact = -std::expm1(-tick * 1e-3L / 16) * 1000 / 1024;
+    REQUIRE(std::abs(value - exact) <= 2 * (tick + 2) * exact * std::numeric_limits<Scalar>::epsilon());
+  }
+}

@@ -105,3 +105,15 @@ TEST_CASE("a cutoff that cannot be one is refused") {
   CHECK_THROWS_WITH_AS(LowPass<1>({.cutoff = -std::numeric_limits<double>::infinity()}),
                        "LowPass: cutoff: expected finite and > 0, got -inf", std::invalid_argument);
 }
+
+// The step's 1 - (1 - exp(-a))/a is of size a/2 = 3e-5 here: as a difference it would be off by 6e-3 of itself.
+TEST_CASE_TEMPLATE("at a cutoff far below the ticks a ramp is followed to roundings", Scalar, float, double) {
+  const long double tau = 100 / (2 * std::numbers::pi_v<long double>);
+  LowPass<1, Scalar> filter({.cutoff = Scalar(0.01)});
+  for (int tick = 0; tick <= 1000; ++tick) {
+    const Scalar value = filter.update(tick * 1ms, One<Scalar>(Scalar(tick) / 1024)).value[0];  // exact inputs
+    const long double t = tick * 1e-3L, exact = (t + tau * std::expm1(-t / tau)) * 1000 / 1024;
+    // each tick rounds the value so far twice, and its own part of it a few times
+    REQUIRE(std::abs(value - exact) <= 2 * (tick + 2) * exact * std::numeric_limits<Scalar>::epsilon());
+  }
+}

@@ -20,9 +20,9 @@ class ComputedTorque {
 
   struct Settings {
     R robot{};
-    Joints Lambda;             ///< diagonal of Lambda, 1/s; > 0
-    Joints Kd;                 ///< diagonal of K_d, N m s/rad; > 0
-    RobotParameters<R> theta;  ///< the robot's parameters
+    Joints Lambda = unset<Joints>();                         ///< diagonal of Lambda, 1/s; > 0
+    Joints Kd = unset<Joints>();                             ///< diagonal of K_d, N m s/rad; > 0
+    RobotParameters<R> theta = unset<RobotParameters<R>>();  ///< the robot's parameters
   };
 
   struct Output {

@@ -12,6 +12,7 @@
 #include <limpid/robot/joint_state.hpp>
 #include <limpid/robot/robot.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -28,7 +29,11 @@ namespace limpid {
 ///
 /// The torques that the rules allow form a convex set with zero in it. The last torque is brought into the set of this
 /// pose, then moved straight toward the wanted torque, brought into it likewise, as far as the slew rate lets it: so no
-/// rule is broken on the way.
+/// rule is broken on the way. What a rule takes away it takes at once; what it would add comes at the slew rate.
+///
+/// Over a band before its margin a rule sets in gradually, so that the set, and what passes of a steady wanted torque,
+/// is continuous in q: by default an Omni's joint torque changes by less than 20 N m per rad of motion, whatever the
+/// wanted torque, and by 1/joint_band of its limit per rad where no edge of the workspace is near.
 /// @tparam R  a Robot; limits of its own that join several joints come through SafetyTraits
 /// @realtime  limit: no allocation, no throw, bounded work
 template <Robot R>
@@ -41,12 +46,14 @@ class SafetyLimiter {
 
   struct Settings {
     R robot{};
-    Scalar safety_factor = Scalar(13) / Scalar(10);        ///< SF, >= 1
-    std::optional<Joints> torque_limit{};                  ///< tau_max, N m, > 0; else the robot's
-    std::optional<Joints> slew{};                          ///< N m/s, > 0; else from zero to tau_max / SF in 10 ms
-    Scalar joint_margin = Scalar(1) / Scalar(10);          ///< from a joint limit or (5.4), rad, >= 0
-    Scalar workspace_margin = Scalar(1) / Scalar(100);     ///< from an edge of the workspace, m, >= 0
-    bool workspace = true;                                 ///< whether the workspace is watched
+    Scalar safety_factor = Scalar(13) / Scalar(10);     ///< SF, >= 1
+    std::optional<Joints> torque_limit{};               ///< tau_max, N m, > 0; else the robot's
+    std::optional<Joints> slew{};                       ///< N m/s, > 0; else from zero to tau_max / SF in 10 ms
+    Scalar joint_margin = Scalar(1) / Scalar(10);       ///< from a joint limit or (5.4), rad, >= 0
+    Scalar joint_band = Scalar(5) / Scalar(100);        ///< before that margin, rad, >= 0; 0: a step at the margin
+    Scalar workspace_margin = Scalar(1) / Scalar(100);  ///< from an edge of the workspace, m, >= 0
+    Scalar workspace_band = Scalar(5) / Scalar(1000);   ///< before that margin, m, >= 0; 0: a step at the margin
+    bool workspace = true;  ///< whether the workspace is watched; only a robot with SafetyTraits of its own has one
     Scalar joint_overshoot = Scalar(1) / Scalar(10);       ///< beyond a joint limit before it is a fault, rad, >= 0
     Duration longest_gap = std::chrono::milliseconds(20);  ///< between calls before it is a fault, > 0
     /// Bits of the upstream status that are a fault.
@@ -71,6 +78,8 @@ class SafetyLimiter {
     upper_ = limits.upper;
     expect(is_finite(slew_) && (slew_.array() > Scalar(0)).all(), "SafetyLimiter: slew", "finite and > 0", slew_);
     check_distance(settings.joint_margin, "SafetyLimiter: joint_margin");
+    check_distance(settings.joint_band, "SafetyLimiter: joint_band");
+    check_distance(settings.workspace_band, "SafetyLimiter: workspace_band");
     check_distance(settings.workspace_margin, "SafetyLimiter: workspace_margin");
     check_distance(settings.joint_overshoot, "SafetyLimiter: joint_overshoot");
     expect(settings.longest_gap > Duration::zero(), "SafetyLimiter: longest_gap", "> 0 s", settings.longest_gap);
@@ -90,18 +99,23 @@ class SafetyLimiter {
     started_ = true;
     last_ = now;
     const auto allowed = allowed_at(is.q);
-    const auto from = allowed.fit(torque_), to = allowed.fit(wanted);
-    const Joints step = to.torque - from.torque;
-    const Scalar part = part_of(step, dt);
+    const Joints from = allowed.fit(torque_).torque;
+    const auto to = allowed.fit(wanted);
+    const Joints slewed = slew_ * dt;
+    const Scalar kept = part_kept(from, slewed);
+    const Joints start = kept * from, step = to.torque - start;
+    const Scalar part = part_of(step, (slewed - added(start)).cwiseMax(Scalar(0)));
     if (part < Scalar(1)) {
-      torque_ = allowed.fit(from.torque + part * step).torque;  // takes no more than a rounding away
+      torque_ = allowed.fit(start + part * step).torque;  // takes no more than a rounding away
       return {Torque{torque_}, to.status | Status::limited};
     }
     torque_ = to.torque;
     return {Torque{torque_}, to.status};
   }
 
-  /// Ends a fault, deliberately: torque starts again from zero, and the clock at `now`.
+  /// Ends a fault, deliberately: torque starts again from zero, and the clock at `now`. The arm has moved on by itself
+  /// meanwhile: call it only once the references of the controller before this block start again where the arm is, at
+  /// rest; else the torque rises at the slew rate toward whatever the error has become.
   void reset(Time now) noexcept {
     reason_ = FaultReason::none;
     torque_.setZero();
@@ -134,21 +148,42 @@ class SafetyLimiter {
 
   [[nodiscard]] Allowed allowed_at(const Joints& q) const noexcept {
     Allowed allowed(allowed_);
+    const SafetyMargin<Scalar> near_joint{settings_.joint_margin, settings_.joint_band};
     for (Eigen::Index i = 0; i < joints; ++i) {
-      if (q[i] >= upper_[i] - settings_.joint_margin) allowed.forbid_positive(i, Status::joint_limit);
-      if (q[i] <= lower_[i] + settings_.joint_margin) allowed.forbid_negative(i, Status::joint_limit);
+      allowed.narrow_positive(i, near_joint.share(upper_[i] - q[i]), Status::joint_limit);
+      allowed.narrow_negative(i, near_joint.share(q[i] - lower_[i]), Status::joint_limit);
     }
-    SafetyTraits<R>::limit_joints(settings_.robot, q, settings_.joint_margin, allowed);
-    if (settings_.workspace) SafetyTraits<R>::limit_workspace(settings_.robot, q, settings_.workspace_margin, allowed);
+    SafetyTraits<R>::limit_joints(settings_.robot, q, near_joint, allowed);
+    if (settings_.workspace) {
+      SafetyTraits<R>::limit_workspace(settings_.robot, q, {settings_.workspace_margin, settings_.workspace_band},
+                                       allowed);
+    }
     return allowed;
   }
 
+  // How far each joint of `start` is beyond the last torque, away from zero, N m.
+  [[nodiscard]] Joints added(const Joints& start) const noexcept {
+    const Joints zero = Joints::Zero();
+    return (start - torque_.cwiseMax(zero)).cwiseMax(torque_.cwiseMin(zero) - start).cwiseMax(zero);
+  }
+
+  // The part of the last torque, brought into today's set, that adds no more to any joint than the slew rate lets it.
+  [[nodiscard]] Scalar part_kept(const Joints& from, const Joints& most) const noexcept {
+    Scalar part(1);
+    const Joints more = added(from);
+    for (Eigen::Index i = 0; i < joints; ++i) {
+      const Scalar length = from[i] < Scalar(0) ? -from[i] : from[i];
+      if (more[i] > most[i]) part = std::min(part, (length - more[i] + most[i]) / length);
+    }
+    return part;
+  }
+
   // How much of a step the slew rate lets through, the same part for all joints.
-  [[nodiscard]] Scalar part_of(const Joints& step, const Scalar& dt) const noexcept {
+  [[nodiscard]] static Scalar part_of(const Joints& step, const Joints& most) noexcept {
     Scalar part(1);
     for (Eigen::Index i = 0; i < joints; ++i) {
-      const Scalar length = step[i] < Scalar(0) ? -step[i] : step[i], most = slew_[i] * dt;
-      if (length * part > most) part = most / length;
+      const Scalar length = step[i] < Scalar(0) ? -step[i] : step[i];
+      if (length * part > most[i]) part = most[i] / length;
     }
     return part;
   }

@@ -8,10 +8,17 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 #include <string_view>
 
 namespace limpid {
+
+/// What a setting without a sensible default holds until it is given, so that `expect` names it: NaN.
+template <typename V>
+[[nodiscard]] V unset() {
+  return V::Constant(std::numeric_limits<typename V::Scalar>::quiet_NaN());
+}
 
 /// The part that the controllers with known and with adapted parameters share: (4.1), (4.3) and (4.2) = (4.7).
 ///

@@ -17,7 +17,7 @@ namespace limpid {
 ///
 /// For fixed-size states: a tool in a nonlinear environment, a simulated arm. Stiff systems are outside its use.
 /// @tparam State  fixed-size Eigen vector or matrix
-/// @realtime      no allocation, no throw beyond what f does; at most `most_steps` trials of six calls of f each
+/// @realtime      no allocation, no throw; at most `most_steps` trials of six calls of f each
 template <typename State, Real Scalar = typename State::Scalar>
 class DormandPrince {
  public:
@@ -39,7 +39,7 @@ class DormandPrince {
   }
 
   /// Takes `y` from t0 to t1, the first trial step being the whole way.
-  /// @param f  f(t, y) -> State, y'; smooth between t0 and t1
+  /// @param f  f(t, y) -> State, y'; smooth between t0 and t1; must not throw: the program ends if it does
   /// @return   `ok`; or with `y` untouched: `clock_backwards` (t1 < t0), `not_finite` (y, a time or f's answer),
   ///           `limited` (not there after `most_steps`, or steps too short to move t)
   template <typename F>

@@ -5,17 +5,19 @@
 
 #include <Eigen/Core>
 
+#include <concepts>
 #include <cstring>
 
 namespace limpid {
 
-/// How many lanes hold `axes` axes: three axes take a fourth, idle one where the processor works on four at once.
+/// How many lanes hold `axes` axes: three axes of float or double take a fourth, idle one, which fills whole packets.
 template <Real Scalar>
 [[nodiscard]] constexpr int lanes_for(int axes) noexcept {
-  return axes == 3 && Eigen::internal::packet_traits<Scalar>::size >= 4 ? 4 : axes;
+  return axes == 3 && (std::same_as<Scalar, float> || std::same_as<Scalar, double>) ? 4 : axes;
 }
 
-/// Axes side by side, one a lane. Unaligned, so that its layout does not depend on compiler flags.
+/// Axes side by side, one a lane. Neither the number of lanes nor their alignment depends on compiler flags, so that
+/// translation units compiled for different processors share one layout.
 template <int Axes, Real Scalar>
 using Lanes = Eigen::Array<Scalar, lanes_for<Scalar>(Axes), 1, Eigen::DontAlign>;
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/finite.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <limits>
 
 namespace limpid {
@@ -18,7 +20,8 @@ namespace limpid {
 /// r and s are summed as power series over a piece of h short enough for a fixed number of terms, then doubled
 /// until they span h. Nothing is divided by kappa or beta, so that zero and stiff values are alike well conditioned.
 /// @tparam Axes  number of independent axes
-/// @realtime     no allocation, no throw; `set` some 120 flops an axis, `advance` 14
+/// @realtime     no allocation, no throw; `set` some 120 flops an axis and 15 for each doubling, of which there are at
+///               most as many as the scalar's exponent allows (some 1000 in double); `advance` 14
 template <int Axes = 1, Real Scalar = double>
 class SecondOrderStep {
  public:
@@ -26,15 +29,15 @@ class SecondOrderStep {
 
   /// @param kappa  stiffness over mass, 1/s^2
   /// @param beta   damping over mass, 1/s
-  /// @param h      length of the step, s, not negative; all three finite
+  /// @param h      length of the step, s, not negative
+  /// Where beta h or sqrt(kappa) h is not finite there is no step: `advance` then gives NaN.
   void set(const Vector& kappa, const Vector& beta, const Scalar& h) noexcept {
     const Array k = to_lanes<Axes, Scalar>(kappa, Scalar{0}), b = to_lanes<Axes, Scalar>(beta, Scalar{0});
     const Array sizes = (b.abs() * h).max(k.abs().sqrt() * h);
-    Scalar size = sizes.sum();
-    if (size > longest) size = sizes.maxCoeff();
     Scalar piece = h;
     int doublings = 0;
-    for (; size > longest; size /= 2, piece /= 2) ++doublings;
+    if (!(sizes.sum() <= Scalar(longest))) [[unlikely]]
+      doublings = halve(sizes, piece);
     sum_series(k, b, piece);
     for (; doublings > 0; --doublings) double_length(k, b, piece);
     position_decay_ = Scalar{1} - k * s_;
@@ -62,6 +65,10 @@ class SecondOrderStep {
 
   static constexpr double longest = 0.5;  // of |beta| h and sqrt(|kappa|) h within one series
 
+  // From the scalar's largest number to `longest`; of scalars with wider exponents than any built-in one, fewer.
+  static constexpr int most_doublings =
+      std::min(static_cast<int>(std::numeric_limits<Scalar>::max_exponent), 16'384) + 2;
+
   // Coefficient n of r is at most (golden ratio * longest)^(n-3) / n!; the first one is 1/3!.
   static constexpr int terms() {
     double bound = 1, precision = 1;
@@ -69,6 +76,16 @@ class SecondOrderStep {
     int n = 3;
     for (; n * bound > precision; ++n) bound *= 1.6181 * longest / (n + 1);  // s sums n times the coefficient
     return n;
+  }
+
+  // Shortens the piece until it is no longer than `longest`: how often. Apart, so that `set` stays small.
+  [[gnu::noinline]] static int halve(const Array& sizes, Scalar& piece) noexcept {
+    const Scalar none = std::numeric_limits<Scalar>::quiet_NaN();
+    Scalar size = is_finite(sizes) ? sizes.maxCoeff() : none;
+    int count = 0;
+    for (; size > longest && count < most_doublings; size /= 2, piece /= 2) ++count;
+    if (!(size <= Scalar(longest))) piece = none;
+    return count;
   }
 
   void sum_series(const Array& kappa, const Array& beta, const Scalar& h) noexcept {

@@ -21,7 +21,7 @@ struct DeviceState {
   Eigen::Matrix<Scalar, Joints, 1> q = Eigen::Matrix<Scalar, Joints, 1>::Zero();     ///< driven joints, rad
   Eigen::Matrix<Scalar, Joints, 1> qdot = Eigen::Matrix<Scalar, Joints, 1>::Zero();  ///< rad/s
   Eigen::Matrix<Scalar, 3, 1> gimbal =
-      Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< roll, pitch, yaw, rad; zero without one
+      Eigen::Matrix<Scalar, 3, 1>::Zero();  ///< yaw, pitch, roll, rad; zero without one
   std::uint32_t buttons = 0;                ///< a bit each, 1 = pressed
   Time stamp{};                             ///< when it was so
   Status status = Status::ok;               ///< no_sample, stale, disconnected: the last state known

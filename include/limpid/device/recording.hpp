@@ -25,7 +25,8 @@ namespace limpid {
 /// their forces are held.
 ///
 /// Lines may end in CR LF; lines that are blank or begin with # are passed over; the first other line may be a
-/// header; columns after the second are not read. The times must increase, evenly or not.
+/// header, whose first two cells look like no number; columns after the second are not read. The times must increase,
+/// evenly or not.
 /// @realtime  at: no allocation, no throw; O(log n)
 class Recording {
  public:
@@ -128,10 +129,18 @@ class Recording {
     return error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(value);
   }
 
+  // Whether a cell is meant as a number, be it a broken one.
+  static bool looks_numeric(std::string_view cell) {
+    if (cell.empty()) return false;
+    if (std::string_view("+-.0123456789").find(cell.front()) != std::string_view::npos) return true;
+    std::string lower(cell);
+    for (char& c : lower) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return lower == "nan" || lower == "inf" || lower == "infinity";
+  }
+
   static bool is_header(std::string_view row) {
     const auto [time, force] = first_two(row);
-    double ignored = 0;
-    return !time.empty() && !is_number(time, ignored) && !is_number(force, ignored);
+    return !time.empty() && !looks_numeric(time) && !looks_numeric(force);
   }
 
   void append(std::string_view row, const Place& place, double scale) {

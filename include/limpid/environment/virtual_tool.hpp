@@ -59,6 +59,11 @@ class VirtualTool {
     expect(is_finite(settings.theta), "VirtualTool: theta", "finite", settings.theta);
     expect(is_finite(settings.x0), "VirtualTool: x0", "finite", settings.x0);
     expect(is_finite(settings.v0), "VirtualTool: v0", "finite", settings.v0);
+    const Tangents<axes, Scalar> slopes =
+        Traits::tangent(settings.environment, settings.theta, settings.x0, settings.v0);
+    expect(is_finite(Vector((slopes.stiffness + settings.tool.stiffness) / settings.tool.mass)) &&
+               is_finite(Vector((slopes.damping + settings.tool.damping) / settings.tool.mass)),
+           "VirtualTool: theta", "a finite stiffness and damping over the tool's mass", settings.theta);
     state_ = completed(settings.x0, settings.v0, Vector::Zero());
     expect(is_finite(state_), "VirtualTool: x0, v0", "a finite force of the environment", "one that is not");
   }
@@ -75,7 +80,7 @@ class VirtualTool {
     if (started_) {
       if (now <= now_) return {state_, Status::clock_backwards};
       const Vector& end = settings_.intersample == Intersample::linear ? F_h : F_h_;
-      const Status status = move(now - now_, F_h_, end, x, v);
+      const Status status = move(elapsed(now, now_), F_h_, end, x, v);
       if (status != Status::ok) return {state_, status};
     }
     const State next = completed(x, v, F_h);

@@ -16,6 +16,9 @@ namespace limpid {
 ///
 /// Over [previous now, now] the law runs with the sample that was held then; only at its end the new one is taken over.
 /// The law is causal and its discretisation exact. Before the first sample it does not run.
+///
+/// In an environment that is not bilateral an axis on which nothing pushes back is not in contact: its force says
+/// nothing of the parameters, and the law runs there with phi = 0 and F = 0.
 /// @tparam Env  the model whose parameters are sought
 /// @realtime    update: no allocation, no throw; a step of the law, and one regressor for each new sample
 template <Environment Env>
@@ -38,10 +41,10 @@ class EnvironmentEstimator {
 
   /// Brings the estimate to `now` and holds `sample` from now on.
   /// @return  clock_backwards: nothing changed; no_sample; not_finite: the sample was not taken over; at_bound
-  Status update(Time now, const Held<ToolState<axes, Scalar>>& sample) noexcept {
+  [[nodiscard]] Status update(Time now, const Held<ToolState<axes, Scalar>>& sample) noexcept {
     if (started_ && now <= now_) return Status::clock_backwards;
     Status status = Status::ok;
-    if (sampled_) status |= law_.update(in_seconds<Scalar>(now - now_), phi_, F_);
+    if (sampled_) status |= law_.update(in_seconds<Scalar>(elapsed(now, now_)), phi_, F_);
     started_ = true;
     now_ = now;
     if (has(sample.status, Status::no_sample)) return status | when(!sampled_, Status::no_sample);
@@ -59,9 +62,16 @@ class EnvironmentEstimator {
 
   Status take(const Held<ToolState<axes, Scalar>>& sample) noexcept {
     const auto& [x, v, a, force] = sample.value;
-    const EnvironmentTheta<Env> phi = Traits::regressor(environment_, x, v);
-    const EnvironmentVector<Env> F = force - Traits::force(environment_, EnvironmentTheta<Env>::Zero(), x, v);
+    EnvironmentTheta<Env> phi = Traits::regressor(environment_, x, v);
+    EnvironmentVector<Env> F = force - Traits::force(environment_, EnvironmentTheta<Env>::Zero(), x, v);
     if (!is_finite(phi) || !is_finite(F)) return Status::not_finite;
+    if constexpr (!Traits::bilateral) {
+      for (int axis = 0; axis < axes; ++axis) {
+        if (force[axis] > Scalar{0}) continue;
+        phi.row(axis).setZero();
+        F[axis] = Scalar{0};
+      }
+    }
     phi_ = phi;
     F_ = F;
     taken_ = sample.taken;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace limpid {
 
@@ -23,8 +24,7 @@ namespace limpid {
 /// so that an axis called excited is. phi is taken as held over each dt.
 /// @tparam N     parameters of an axis
 /// @tparam Bins  steps of the window
-/// @realtime     update: no allocation, no throw; 2 N^2 flops and the smallest eigenvalue of a matrix of order N, an
-/// axis
+/// @realtime     update: no allocation, no throw; for each axis 2 N^2 flops and the eigenvalues of a matrix of order N
 template <int N, int Axes = 1, Real Scalar = double, std::size_t Bins = 32>
 class ExcitationMonitor {
   static_assert(Bins >= 2, "ExcitationMonitor: Bins is at least 2");
@@ -36,7 +36,9 @@ class ExcitationMonitor {
 
   struct Settings {
     Scalar window{1};  ///< T_1, s, > 0
-    Scalar least{0};   ///< beta, in regressor^2 s, >= 0
+    /// beta, in regressor^2 s, > 0. An eigenvalue of zero is computed as a rounding of the largest one: beta lies well
+    /// above that.
+    Scalar least = std::numeric_limits<Scalar>::quiet_NaN();
   };
 
   struct Output {
@@ -48,14 +50,14 @@ class ExcitationMonitor {
   /// @throws std::invalid_argument  where a setting is outside the range given at its field
   explicit ExcitationMonitor(const Settings& settings) : T_1_{settings.window}, beta_{settings.least} {
     expect(is_finite(T_1_) && T_1_ > Scalar{0}, "ExcitationMonitor: window", "finite and > 0", T_1_);
-    expect(is_finite(beta_) && beta_ >= Scalar{0}, "ExcitationMonitor: least", "finite and >= 0", beta_);
+    expect(is_finite(beta_) && beta_ > Scalar{0}, "ExcitationMonitor: least", "finite and > 0", beta_);
     for (Bin& bin : bins_) bin.clear();
     closed_.clear();
   }
 
   /// Adds `dt` seconds of `phi`.
   /// @return status  not_finite or clock_backwards: nothing was added
-  Output update(const Scalar& dt, const Regressor& phi) noexcept {
+  [[nodiscard]] Output update(const Scalar& dt, const Regressor& phi) noexcept {
     if (!is_finite(dt) || !is_finite(Regressor(phi * phi))) return say(Status::not_finite);
     if (!(dt > Scalar{0})) return say(Status::clock_backwards);
     const Scalar filled = newest().duration;

@@ -13,8 +13,8 @@ namespace limpid {
 /// With s = phi' Gamma phi and eps = phi' theta_hat - F at the start, Gamma^-1 obeys (Gamma^-1)' = -alpha Gamma^-1 +
 /// phi phi' / (1 + nu phi' Gamma phi), and exp(alpha t) Gamma^-1 theta_tilde is constant, hence
 ///
-///     Gamma(t) = T (Gamma - Gamma phi phi' Gamma u / (1 + s u)),     theta_hat(t) = theta_hat - Gamma phi eps u / (1 +
-///     s u)
+///     Gamma(t)     = T (Gamma - Gamma phi phi' Gamma u / (1 + s u))
+///     theta_hat(t) = theta_hat - Gamma phi eps u / (1 + s u)
 ///
 /// T = exp(alpha t) and u, the information gathered, in seconds, follows from l = ln(1 + s u), p = alpha nu:
 ///

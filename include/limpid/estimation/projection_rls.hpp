@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace limpid {
 
@@ -29,12 +30,13 @@ namespace limpid {
 ///
 /// Windup: (4.45) as printed stops altogether once lambda_max(Gamma) passes rho_M, and then never moves again. Here
 /// only the forgetting stops: a step that starts from Gamma uses, in place of alpha, the largest alpha' <= alpha for
-/// which exp(alpha' dt) lambda_max(Gamma) <= rho_M (0 where there is none). lambda_max(Gamma) <= rho_M holds always.
+/// which exp(alpha' dt) lambda_max(Gamma) <= rho_M (0 where there is none). lambda_max(Gamma) <= rho_M holds always, to
+/// the roundings of the factors.
 ///
 /// Projection: the step is taken freely and then brought back to the box in the metric of Gamma^-1 (`project_on_box`).
 /// @tparam N     parameters of an axis
 /// @realtime     update: no allocation, no throw, bounded work; some 150 flops an axis for N = 2, two thirds of them
-/// for the step's u
+///               for the step's u
 template <int N, int Axes = 1, Real Scalar = double>
 class ProjectionRLS {
  public:
@@ -44,10 +46,10 @@ class ProjectionRLS {
   using Gain = Eigen::Matrix<Scalar, N, N>;
 
   struct Settings {
-    Theta lower;                    ///< corner of the box, in the parameters' units
-    Theta upper;                    ///< the opposite corner, same units
-    Theta initial;                  ///< theta_hat(0), within the box
-    Theta initial_gain;             ///< diagonal of Gamma(0), > 0 and <= gain_limit, in parameter^2 / (N^2 s)
+    Theta lower = unset();          ///< corner of the box, in the parameters' units
+    Theta upper = unset();          ///< the opposite corner, same units
+    Theta initial = unset();        ///< theta_hat(0), within the box
+    Theta initial_gain = unset();   ///< diagonal of Gamma(0), > 0 and <= gain_limit, in parameter^2 / (N^2 s)
     Scalar forgetting = Scalar{2};  ///< alpha, 1/s, >= 0
     Scalar normalisation = Scalar{1} / Scalar{100};         ///< nu, s, >= 0, with alpha nu < 1
     Scalar gain_limit = Scalar{5} * Scalar{1'000'000'000};  ///< rho_M, bound on lambda_max(Gamma), units of the gain
@@ -72,7 +74,7 @@ class ProjectionRLS {
   /// @param phi  regressor phi_e,zd; row: axis
   /// @param F    measured force less its known part, N
   /// @return     not_finite or clock_backwards: nothing changed; at_bound: the box held a parameter
-  Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
+  [[nodiscard]] Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
     const Columns columns_of_phi = columns(phi, Scalar{0});
     const Array lanes_of_F = to_lanes<Axes, Scalar>(F, Scalar{0});
     if (!is_finite(dt) || !finite(columns_of_phi, lanes_of_F)) return Status::not_finite;
@@ -106,6 +108,8 @@ class ProjectionRLS {
     Columns theta;
     Factorised Gamma;
   };
+
+  static Theta unset() { return Theta::Constant(std::numeric_limits<Scalar>::quiet_NaN()); }
 
   static const Array& column(const Columns& columns, int j) { return columns[static_cast<std::size_t>(j)]; }
 

@@ -41,7 +41,7 @@ class ErrorNorms {
     const Scalar xx = e_x.squaredNorm(), vv = e_v.squaredNorm();
     if (!is_finite(xx) || !is_finite(vv)) return Status::not_finite;
     if (begun_ && now <= last_) return Status::clock_backwards;
-    const Scalar half_dt = begun_ ? in_seconds<Scalar>(now - last_) / Scalar{2} : Scalar{0};
+    const Scalar half_dt = begun_ ? in_seconds<Scalar>(elapsed(now, last_)) / Scalar{2} : Scalar{0};
     position_.add(half_dt, xx);
     velocity_.add(half_dt, vv);
     total_.add(half_dt, xx + vv);

@@ -31,30 +31,38 @@ class HoldPredictor {
     expect(is_finite(held_), "HoldPredictor: start", "finite", "a motion that is not");
   }
 
-  Status observe(const ToolSample<Axes, Scalar>& sample) noexcept {
+  /// Takes in a sample that has arrived; it holds from the next `advance` on.
+  /// @return  not_finite, clock_backwards (taken after it arrived), out_of_order: the sample was dropped
+  [[nodiscard]] Status observe(const ToolSample<Axes, Scalar>& sample) noexcept {
     if (!is_finite(sample.value)) return Status::not_finite;
-    if (sampled_ && sample.taken <= taken_) return Status::out_of_order;
-    held_ = {sample.value.x, sample.value.v, sample.value.a};
-    taken_ = sample.taken;
-    sampled_ = true;
+    if (sample.taken > sample.arrived) return Status::clock_backwards;
+    if (newest_.seen(sample.taken)) return Status::out_of_order;
+    next_ = {sample.value.x, sample.value.v, sample.value.a};
+    newest_.observe(sample.taken);
     return Status::ok;
   }
 
   /// @param F_h  operator's force, N; has no influence
-  Prediction<Axes, Scalar> advance(Time now, const Vector& F_h) noexcept {
+  /// @return     out_of_history: a sample taken after `now` was dropped
+  [[nodiscard]] Prediction<Axes, Scalar> advance(Time now, const Vector& F_h) noexcept {
     const bool late = started_ && now <= now_;
     const bool finite = is_finite(F_h);
-    if (late || !finite) return {last_, when(late, Status::clock_backwards) | when(!finite, Status::not_finite)};
+    if (late || !finite) return {held_, when(late, Status::clock_backwards) | when(!finite, Status::not_finite)};
     now_ = now;
     started_ = true;
-    last_ = held_;
-    return {last_, when(!sampled_, Status::no_sample)};
+    Status status = Status::ok;
+    if (newest_.pending()) {
+      status = newest_.settle(now);
+      if (status == Status::ok) held_ = next_;
+    }
+    return {held_, status | when(!newest_.any(), Status::no_sample)};
   }
 
  private:
-  Motion<Axes, Scalar> held_{}, last_ = held_;  // of the newest sample; returned last
-  bool started_ = false, sampled_ = false;
-  Time now_{}, taken_{};
+  Motion<Axes, Scalar> held_{}, next_{};  // returned last; of the sample observed since
+  SampleStamps newest_;
+  bool started_ = false;
+  Time now_{};
 };
 
 }  // namespace limpid

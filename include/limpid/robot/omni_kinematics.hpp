@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
@@ -20,7 +21,12 @@ namespace limpid {
 ///
 /// Every angle is an arc tangent of two lengths, well conditioned up to the edges of the workspace, where the arc
 /// cosine of (3.5) is not. Within 1/256 of a singularity (r over the reach, or |sin q3|) the inverse of J is damped:
-/// rates stay bounded, and the direction that the arm has lost is given up first. Joint limits are not looked at.
+/// rates stay bounded, and the direction that the arm has lost is given up first.
+///
+/// Joints beyond their limits are brought to the nearest admissible ones, in the 2-norm: Table 5.1 and (5.4). Those
+/// that were moved have zero rates, the others move as if none had been; the status is then `unreachable`. Joints
+/// within 128 roundings of a limit are on it. The Omni's singularities all lie beyond its limits: a damped answer, too,
+/// is one for joints that are held, unless an arm with other limits is given.
 /// @realtime  inverse: no allocation, no throw; three arc tangents, two square roots
 template <Real Scalar_ = double>
 class OmniKinematics {
@@ -29,19 +35,35 @@ class OmniKinematics {
   static constexpr int joints = 3;
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
 
+  struct Limits {
+    Vector lower, upper;  ///< of the joints, rad
+    Scalar elbow_sum;     ///< largest q2 + q3, rad; eq. (5.4)
+  };
+
   explicit OmniKinematics(const Omni<Scalar>& robot)
-      : l2_{robot.link2()},
+      : OmniKinematics(robot, {robot.limits().lower, robot.limits().upper, robot.elbow_sum_limit()}) {}
+
+  /// @param limits  of an arm with stops of its own; infinite where there is none
+  /// @throws std::invalid_argument  where no joints are within the limits
+  OmniKinematics(const Omni<Scalar>& robot, const Limits& limits)
+      : limits_{limits},
+        l2_{robot.link2()},
         l3_{robot.link3()},
         outer_{l2_ + l3_},
         inner_{innermost(l2_, l3_)},
-        per_twice_l2l3_{1 / (2 * l2_ * l3_)} {}
+        per_twice_l2l3_{1 / (2 * l2_ * l3_)} {
+    expect((limits.lower.array() <= limits.upper.array()).all(), "OmniKinematics: lower", "<= upper", limits.lower);
+    expect(limits.elbow_sum >= limits.lower[1] + limits.lower[2], "OmniKinematics: elbow_sum",
+           ">= the sum of the lower limits", limits.elbow_sum);
+  }
 
   /// @param x     tip in the base frame, m
   /// @param near  rad; gives q1 where the tip is on the vertical axis, and the answer where x is not finite; looked at
   ///              only there, and taken as zero where it is not finite itself
   [[nodiscard]] InverseJoints<3, Scalar> inverse(const Vector& x, const Vector& near = Vector::Zero()) const noexcept {
     if (!is_finite(x)) return {fallback(near), Status::not_finite};
-    const Arm arm = reach(x, near);
+    Arm arm = reach(x, near);
+    if (is_beyond_limits(arm.q)) (void)hold_within_limits(arm);
     return {arm.q, arm.status};
   }
 
@@ -50,14 +72,22 @@ class OmniKinematics {
   [[nodiscard]] InverseMotion<3, Scalar> inverse(const Vector& x, const Vector& v, const Vector& a,
                                                  const Vector& near = Vector::Zero()) const noexcept {
     if (!(is_finite(x) && is_finite(v) && is_finite(a))) return at_rest(fallback(near), Status::not_finite);
-    const Arm arm = reach(x, near);
-    const Vector qdot = joint_rates(arm, into_arm(arm, v));                            // (3.12)
-    const Vector qddot = joint_rates(arm, into_arm(arm, a) - centripetal(arm, qdot));  // (3.14)
-    if (!is_finite(qddot)) return at_rest(arm.q, arm.status | Status::not_finite);     // v or a beyond any range
+    Arm arm = reach(x, near);
+    Vector qdot = joint_rates(arm, into_arm(arm, v));                            // (3.12)
+    Vector qddot = joint_rates(arm, into_arm(arm, a) - centripetal(arm, qdot));  // (3.14)
+    const bool in_range = is_finite(qddot);                                      // else v or a is beyond any range
+    if (is_beyond_limits(arm.q)) {
+      const auto held = hold_within_limits(arm);
+      qdot = held.select(Vector::Zero(), qdot);
+      qddot = held.select(Vector::Zero(), qddot);
+    }
+    if (!in_range) return at_rest(arm.q, arm.status | Status::not_finite);
     return {{arm.q, qdot, qddot}, arm.status};
   }
 
  private:
+  using Held = Eigen::Array<bool, joints, 1>;  // of the joints: at a limit
+
   // The arm at its target.
   struct Arm {
     Vector q;  // rad
@@ -105,6 +135,30 @@ class OmniKinematics {
     arm.status |= when(r < near_axis() || arm.straight, Status::singular);
     if (level < std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon()) keep_joint_1(arm, near);
     return arm;
+  }
+
+  [[nodiscard]] bool is_beyond_limits(const Vector& q) const noexcept {
+    const Scalar rounding = 128 * std::numeric_limits<Scalar>::epsilon();  // of q near the limits, in the inverse
+    return (q.array() > limits_.upper.array() + rounding).any() ||
+           (q.array() < limits_.lower.array() - rounding).any() || q[1] + q[2] > limits_.elbow_sum + rounding;
+  }
+
+  // Brings q to the nearest joints within the limits. Where (5.4) is broken within the box of the others, they are on
+  // its line, between the two corners where that leaves the box.
+  [[nodiscard]] Held hold_within_limits(Arm& arm) const noexcept {
+    using std::max, std::min;
+    const Vector q = arm.q;
+    arm.q = q.cwiseMax(limits_.lower).cwiseMin(limits_.upper);
+    Held held = arm.q.array() != q.array();
+    if (arm.q[1] + arm.q[2] > limits_.elbow_sum) {
+      const Scalar sum = limits_.elbow_sum, nearest = q[1] - (q[1] + q[2] - sum) / 2;
+      arm.q[1] = min(max(nearest, max(limits_.lower[1], sum - limits_.upper[2])),
+                     min(limits_.upper[1], sum - limits_.lower[2]));
+      arm.q[2] = min(max(sum - arm.q[1], limits_.lower[2]), limits_.upper[2]);  // the corners are rounded
+      held[1] = held[2] = true;
+    }
+    arm.status |= Status::unreachable;
+    return held;
   }
 
   // On the vertical axis, where no q1 is better than another.
@@ -172,6 +226,7 @@ class OmniKinematics {
     return max(folded, open);
   }
 
+  Limits limits_;
   Scalar l2_, l3_;         // m
   Scalar outer_, inner_;   // reachable distances of the tip from the shoulder, m
   Scalar per_twice_l2l3_;  // 1/m^2

@@ -114,7 +114,15 @@ struct KinematicsBlock {
   }
 };
 
-/// Makes the device follow: ComputedTorque or SlotineLiAdaptive.
+/// A controller that adapts, and therefore must hear what torque the device had.
+template <typename Controller, typename R>
+concept HeedsAppliedTorque = requires(Controller controller, Time now, const typename MeasuredState<R>::value_type& is,
+                                      const typename DesiredState<R>::value_type& desired,
+                                      const Eigen::Matrix<RobotScalar<R>, 3, 1>& F_h, const JointVector<R>& applied) {
+  controller.update(now, is.joint_state(), desired, F_h, applied);
+};
+
+/// Makes the device follow: ComputedTorque.
 template <typename Controller, Robot R>
 struct TrackingBlock {
   using Scalar = RobotScalar<R>;
@@ -123,10 +131,29 @@ struct TrackingBlock {
 
   Controller component;
 
-  Reported<JointVector<R>> operator()(Time now, const typename MeasuredState<R>::value_type& measured,
+  Reported<JointVector<R>> operator()(Time, const typename MeasuredState<R>::value_type& measured,
                                       const typename DesiredState<R>::value_type& desired,
                                       const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
-    const auto [tau, status] = component.update(now, measured.joint_state(), desired, F_h);
+    const auto [tau, status] = component.update(measured.joint_state(), desired, F_h);
+    return {tau, status};
+  }
+};
+
+/// Makes the device follow: SlotineLiAdaptive, which adapts only while the device has the torque that it wants.
+template <typename Controller, Robot R>
+requires HeedsAppliedTorque<Controller, R>
+struct TrackingBlock<Controller, R> {
+  using Scalar = RobotScalar<R>;
+  using reads = signals<MeasuredState<R>, DesiredState<R>, ForceOnArm<Scalar>, Previous<AllowedTorque<R>>>;
+  using writes = signals<WantedTorque<R>>;
+
+  Controller component;
+
+  Reported<JointVector<R>> operator()(Time now, const typename MeasuredState<R>::value_type& measured,
+                                      const typename DesiredState<R>::value_type& desired,
+                                      const Eigen::Matrix<Scalar, 3, 1>& F_h,
+                                      const typename AllowedTorque<R>::value_type& applied) noexcept {
+    const auto [tau, status] = component.update(now, measured.joint_state(), desired, F_h, applied.value());
     return {tau, status};
   }
 };

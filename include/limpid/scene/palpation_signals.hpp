@@ -77,6 +77,7 @@ struct WantedTorque {
 template <Robot R>
 struct AllowedTorque {
   using value_type = SafeTorque<RobotTraits<R>::joints, RobotScalar<R>>;
+  static value_type initial() noexcept { return {}; }  // zero torque
 };
 
 }  // namespace limpid::palpation

@@ -7,6 +7,7 @@
 #include <limpid/core/time.hpp>
 #include <limpid/signal/sample.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -19,37 +20,44 @@ namespace limpid {
 /// newest k that is due); it arrives `delay` later and is seen by the first tick at or after that. Neither needs to be
 /// a multiple of the tick, and the delay may exceed the period. A sampler with its own clock hands its samples to
 /// `offer` instead. A value that is not finite when its sample is due makes that sample a lost one.
+///
+/// When samples stop coming, what is held grows older than `longest_age`, and `update` says `stale`. The sampler's own
+/// sampling is stale only where samples were lost: slow ticks alone never make it so.
 /// @tparam T         copied without throwing; `is_finite(T)` is found by argument-dependent lookup or in limpid
 /// @tparam Capacity  most samples on their way at once
-/// @realtime         no allocation, no throw; `update` looks at `value` only when a sample is due, `offer` costs a move
-/// of
-///                   each sample on its way that arrives later
+/// @realtime         no allocation, no throw; `update` looks at `value` only when a sample is due, `offer` moves each
+///                   sample on its way that arrives later
 template <typename T, std::size_t Capacity = 64>
 class DelayedSampled {
  public:
   struct Settings {
     Duration period{};  ///< T_d, between samples; > 0
     Duration delay{};   ///< from taking a sample to its arrival; >= 0, below Capacity periods
+    /// Age, since `taken`, from which on what is held is stale; before the first arrival, since the first tick. At
+    /// least the delay and a period; default: the delay and ten periods.
+    Duration longest_age = delay_and_periods(delay, period, 10);
   };
 
   /// @param initial  what is held before the first arrival, finite
   /// @throws std::invalid_argument  where the settings cannot serve
   explicit DelayedSampled(const Settings& settings, const T& initial = zero<T>())
-      : period_{settings.period}, delay_{settings.delay} {
+      : period_{settings.period}, delay_{settings.delay}, longest_age_{std::min(settings.longest_age, longest)} {
     expect(period_ > Duration::zero(), "DelayedSampled: period", "> 0", period_);
     expect(delay_ >= Duration::zero(), "DelayedSampled: delay", ">= 0", delay_);
     expect(static_cast<std::size_t>(delay_ / period_) < Capacity, "DelayedSampled: delay",
            "below " + std::to_string(Capacity) + " periods", delay_);
+    expect(longest_age_ >= delay_and_periods(delay_, period_, 1), "DelayedSampled: longest_age",
+           "at least the delay and a period", longest_age_);
     expect(is_finite(initial), "DelayedSampled: initial", "finite", "a value that is not");
     held_.value = initial;
     held_.status = Status::no_sample;
   }
 
   /// What is seen at `now`; takes a sample of `value` if one is due.
-  /// @return status  `no_sample` before the first arrival; `not_finite`: a due sample was lost; `clock_backwards`:
-  /// `now`
-  ///                 is not after the last tick, nothing changed; `out_of_order`: an arrival was not newer than what is
-  ///                 held
+  /// @return status  `no_sample` before the first arrival; `not_finite`: a due sample was lost;
+  ///                 `clock_backwards`: `now` is not after the last tick, nothing changed;
+  ///                 `out_of_order`: an arrival was not newer than what is held;
+  ///                 `stale`: samples were lost, and what is held is older than `longest_age`
   [[nodiscard]] Held<T> update(Time now, const T& value) noexcept {
     if (started_ && now <= now_) return held_with(Status::clock_backwards);
     Status status = Status::ok;
@@ -57,21 +65,21 @@ class DelayedSampled {
       status = take(now, value);
       next_due_ = period_ * (floor_of_periods(now) + 1);
     }
-    return deliver(now, status);
+    return deliver(now, status, lost_);
   }
 
   /// What is seen at `now`, when all samples come by `offer`.
+  /// @return status  as above; `stale`: what is held is older than `longest_age`
   [[nodiscard]] Held<T> update(Time now) noexcept {
     if (started_ && now <= now_) return held_with(Status::clock_backwards);
-    return deliver(now, Status::ok);
+    return deliver(now, Status::ok, now);
   }
 
   /// Sends a sample with its own clock on its way: it will be seen by the first tick at or after `sample.arrived`.
   /// @return  `not_finite`, `clock_backwards` (arrived before it was taken), `out_of_order` (not newer than what is
-  /// held,
-  ///          or a repetition of one on its way): the sample was dropped; `overflow`: the earliest arrival was dropped
-  ///          for it
-  Status offer(const Sample<T>& sample) noexcept {
+  ///          held, or a repetition of one on its way): the sample was dropped;
+  ///          `overflow`: the earliest arrival was dropped for it
+  [[nodiscard]] Status offer(const Sample<T>& sample) noexcept {
     if (!is_finite(sample.value)) return Status::not_finite;
     if (sample.arrived < sample.taken) return Status::clock_backwards;
     if (arrived_any() && sample.taken <= held_.taken) return Status::out_of_order;
@@ -85,6 +93,13 @@ class DelayedSampled {
   // Of samples taken in (now - delay, now] there are at most ceil(delay / period) + 1.
   static constexpr std::size_t slots = Capacity + 1;
 
+  static constexpr Duration longest = Duration::max() / 2;  // of an age, so that instants less an age do not overflow
+
+  static constexpr Duration delay_and_periods(Duration delay, Duration period, int periods) noexcept {
+    if (delay < Duration::zero() || period < Duration::zero()) return longest;  // refused elsewhere
+    return delay > longest || period > (longest - delay) / periods ? longest : delay + period * periods;
+  }
+
   [[nodiscard]] bool arrived_any() const noexcept { return held_.status == Status::ok; }
 
   // duration's own division rounds towards zero
@@ -94,7 +109,10 @@ class DelayedSampled {
   }
 
   Status take(Time now, const T& value) noexcept {
-    if (!is_finite(value)) return Status::not_finite;
+    if (!is_finite(value)) {
+      lost_ = now;
+      return Status::not_finite;
+    }
     return send({value, now, now + delay_});
   }
 
@@ -112,7 +130,9 @@ class DelayedSampled {
     return a.arrived > b.arrived || (a.arrived == b.arrived && a.taken > b.taken);
   }
 
-  [[nodiscard]] Held<T> deliver(Time now, Status status) noexcept {
+  // A sample taken at or after what is held, up to the instant `owed`, should have been there by now.
+  [[nodiscard]] Held<T> deliver(Time now, Status status, Time owed) noexcept {
+    if (!started_) first_tick_ = now;
     started_ = true;
     now_ = now;
     bool fresh = false;
@@ -128,7 +148,8 @@ class DelayedSampled {
       held_.status = Status::ok;
       fresh = true;
     }
-    Held<T> seen = held_with(status);
+    const Time since = arrived_any() ? held_.taken : first_tick_;
+    Held<T> seen = held_with(status | when(since < now - longest_age_ && since <= owed, Status::stale));
     seen.fresh = fresh;
     return seen;
   }
@@ -151,10 +172,12 @@ class DelayedSampled {
 
   Duration period_;
   Duration delay_;
+  Duration longest_age_;
   Held<T> held_;  // never fresh; status no_sample or ok
   bool started_ = false;
-  Time now_{};       // the last tick
-  Time next_due_{};  // of the next sample
+  Time first_tick_{}, now_{};  // and the last tick
+  Time next_due_{};            // of the next sample
+  Time lost_ = Time::min();    // the last due sample that was not finite
   std::size_t first_ = 0, count_ = 0;
   std::array<Sample<T>, slots> ring_{};  // on their way, by arrival
 };

@@ -45,7 +45,7 @@ class FilteredDerivative {
     if (!is_finite(u)) return {y_, Status::not_finite};
     if (started_) {
       if (now <= now_) return {y_, Status::clock_backwards};
-      if (now - now_ != step_) set_step(now - now_);
+      if (elapsed(now, now_) != step_) set_step(elapsed(now, now_));
       const Vector y = y_ + part_ * ((u - u_) * rate_ - y_);
       if (!is_finite(y)) return {y_, Status::not_finite};  // a finite input may still jump too far
       y_ = y;

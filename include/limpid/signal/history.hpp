@@ -28,7 +28,7 @@ class History {
 
   /// Adds a value; the oldest one leaves when the history is full.
   /// @return  `clock_backwards` (not after the newest) or `not_finite`: nothing was added
-  Status push(Time t, const T& value) noexcept {
+  [[nodiscard]] Status push(Time t, const T& value) noexcept {
     if (count_ > 0 && t <= time(count_ - 1)) return Status::clock_backwards;
     if (!is_finite(value)) return Status::not_finite;
     const std::size_t at = (first_ + count_) & mask;
@@ -43,9 +43,8 @@ class History {
   }
 
   /// The value at `t`: the entry itself where there is one, else between its neighbours.
-  /// @return status  `out_of_history`: before the oldest or after the newest, which is returned; `no_sample`: nothing
-  /// is
-  ///                 stored, zero is returned
+  /// @return status  `out_of_history`: before the oldest or after the newest, which is returned;
+  ///                 `no_sample`: nothing is stored, zero is returned
   [[nodiscard]] Entry at(Time t) const noexcept {
     if (count_ == 0) return {zero<T>(), Status::no_sample};
     const std::size_t i = first_not_before(t);

@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include <limits>
+
 namespace limpid {
 
 /// First-order low-pass:
@@ -50,7 +52,7 @@ class LowPass {
       y_ = u;
     } else {
       if (now <= now_) return {y_, Status::clock_backwards};
-      if (now - now_ != step_) set_step(now - now_);
+      if (elapsed(now, now_) != step_) set_step(elapsed(now, now_));
       const Vector y = y_ + part_ * (u_ - y_) + rise_ * (u - u_);
       if (!is_finite(y)) return {y_, Status::not_finite};  // a finite input may still jump too far
       y_ = y;
@@ -67,7 +69,19 @@ class LowPass {
     const Scalar angle = in_seconds<Scalar>(step) * corner_;  // h/tau
     step_ = step;
     part_ = -expm1(-angle);
-    rise_ = Scalar{1} - part_ / angle;
+    rise_ = angle > Scalar{1} ? Scalar(Scalar{1} - part_ / angle) : rise_series(angle);
+  }
+
+  // 1 - (1 - exp(-a))/a = a/2! - a^2/3! + a^3/4! - ..., which as a difference would cancel for a small a; a <= 1.
+  static Scalar rise_series(const Scalar& angle) noexcept {
+    using std::abs;
+    const Scalar negligible = std::numeric_limits<Scalar>::epsilon() / Scalar{4};
+    Scalar term = angle / Scalar{2}, sum = term;
+    for (int n = 3; abs(term) > negligible * sum; ++n) {
+      term *= -angle / Scalar(n);
+      sum += term;
+    }
+    return sum;
   }
 
   Scalar corner_{0};  // 1/tau, rad/s
