@@ -25,13 +25,15 @@ int main() {
   const Point centre = Omni<>{}.at(device.true_state().q).position() - Point(0.01, 0, 0);
 
   double error = 0;
+  Point applied = Point::Zero();  // what the device had, so that the controller does not learn from the limiter's cuts
   for (Time now = 0ms; now <= 5s; now += 1ms) {
     const double angle = 2 * in_seconds(now), c = 0.01 * std::cos(angle), s = 0.01 * std::sin(angle);
     const auto wanted = kinematics.inverse(centre + Point(c, s, 0), Point(-2 * s, 2 * c, 0), Point(-4 * c, -4 * s, 0));
     (void)device.advance(now, Point::Zero());
     const DeviceState<> is = device.read(now);
-    const auto [tau, status] = controller.update(now, is.joint_state(), wanted, Point::Zero());
+    const auto [tau, status] = controller.update(now, is.joint_state(), wanted, Point::Zero(), applied);
     const auto safe = limiter.limit(now, is.joint_state(), tau, is.status | status | wanted.status);
+    applied = safe.torque.value();
     (void)device.write(safe.torque);
     if (now > 2s) error = std::max(error, (is.q - wanted.q).norm());
   }

@@ -48,12 +48,14 @@ TrackingRun track(double safety_factor) {
   SlotineLiAdaptive<Omni<>> controller = tuned_controller();
   SafetyLimiter<Omni<>> limiter({.safety_factor = safety_factor});
   TrackingRun run;
+  Joints applied = Joints::Zero();
   for (Time now{0}; now <= length; now += tick) {
-    (void)arm.advance(now, Joints::Zero());
+    run.status |= arm.advance(now, Joints::Zero());
     const DeviceState<> measured = arm.read(now);
     const DesiredJoints<3> wanted = reference(in_seconds(now), q0);
-    const auto [tau, status] = controller.update(now, measured.joint_state(), wanted, Joints::Zero());
+    const auto [tau, status] = controller.update(now, measured.joint_state(), wanted, Joints::Zero(), applied);
     const auto safe = limiter.limit(now, measured.joint_state(), tau, measured.status | status);
+    applied = safe.torque.value();
     run.status |= safe.status | arm.write(safe.torque);
     const Joints error = arm.true_state().q - wanted.q;
     if (now >= settled) run.bound = run.bound.cwiseMax(error.cwiseAbs());

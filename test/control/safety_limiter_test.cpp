@@ -224,6 +224,30 @@ TEST_CASE("a fault that is still there after a reset stops it again") {
   CHECK(torque.value() == Vector::Zero());
 }
 
+TEST_CASE("a reset may be followed by a call at the same instant, which gives zero torque") {
+  Limiter limiter = at_work({0.2, 0.2, 0.1});
+  (void)limiter.limit(200ms, free_pose, {0.2, 0.2, 0.1});
+  limiter.reset(300ms);
+  CHECK(limiter.limit(300ms, free_pose, {0.2, 0.2, 0.1}).torque.value() == Vector::Zero());
+  CHECK(limiter.reason() == FaultReason::none);
+}
+
+TEST_CASE("a reset without a fault changes nothing") {
+  Limiter limiter = at_work({0.1, 0.1, 0.1}), undisturbed = at_work({0.1, 0.1, 0.1});
+  limiter.reset(101ms);
+  CHECK(limiter.limit(102ms, free_pose, {0.1, 0.1, 0.1}).torque.value() ==
+        undisturbed.limit(102ms, free_pose, {0.1, 0.1, 0.1}).torque.value());
+}
+
+TEST_CASE("a leap of the clock over all of its range is a gap, not a negative step") {
+  Limiter limiter({});
+  (void)limiter.limit(limpid::Time::min() + 1ms, free_pose, {0.01, 0.01, 0.01});
+  const auto [torque, status] = limiter.limit(limpid::Time::max(), free_pose, {0.01, 0.01, 0.01});
+  CHECK(torque.value() == Vector::Zero());
+  CHECK(status == Status::fault);
+  CHECK(limiter.reason() == FaultReason::gap_too_long);
+}
+
 TEST_CASE("which upstream bits are a fault is a setting, and the others pass") {
   Limiter tolerant({.upstream_faults = Status::fault});
   (void)tolerant.limit(0ms, free_pose, {0, 0, 0});

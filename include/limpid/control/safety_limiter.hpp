@@ -71,12 +71,14 @@ class SafetyLimiter {
     const Joints most = settings.torque_limit.value_or(limits.torque);
     expect(is_finite(settings.safety_factor) && settings.safety_factor >= Scalar(1), "SafetyLimiter: safety_factor",
            "finite and >= 1", settings.safety_factor);
-    expect(is_finite(most) && (most.array() > Scalar(0)).all(), "SafetyLimiter: torque_limit", "finite and > 0", most);
+    expect(is_finite(Joints(most * Scalar(4))) && (most.array() > Scalar(0)).all(), "SafetyLimiter: torque_limit",
+           "finite and > 0", most);
     allowed_ = most / settings.safety_factor;
     slew_ = settings.slew.value_or(Joints(allowed_ * Scalar(100)));
     lower_ = limits.lower;
     upper_ = limits.upper;
-    expect(is_finite(slew_) && (slew_.array() > Scalar(0)).all(), "SafetyLimiter: slew", "finite and > 0", slew_);
+    expect(is_finite(Joints(slew_ * Scalar(4))) && (slew_.array() > Scalar(0)).all(), "SafetyLimiter: slew",
+           "finite and > 0", slew_);
     check_distance(settings.joint_margin, "SafetyLimiter: joint_margin");
     check_distance(settings.joint_band, "SafetyLimiter: joint_band");
     check_distance(settings.workspace_band, "SafetyLimiter: workspace_band");
@@ -95,8 +97,9 @@ class SafetyLimiter {
       torque_.setZero();
       return {Torque{}, Status::fault};
     }
-    const Scalar dt = started_ ? in_seconds<Scalar>(now - last_) : Scalar(0);
+    const Scalar dt = started_ ? in_seconds<Scalar>(elapsed(now, last_)) : Scalar(0);
     started_ = true;
+    resumed_ = false;
     last_ = now;
     const auto allowed = allowed_at(is.q);
     const Joints from = allowed.fit(torque_).torque;
@@ -113,14 +116,16 @@ class SafetyLimiter {
     return {Torque{torque_}, to.status};
   }
 
-  /// Ends a fault, deliberately: torque starts again from zero, and the clock at `now`. The arm has moved on by itself
-  /// meanwhile: call it only once the references of the controller before this block start again where the arm is, at
-  /// rest; else the torque rises at the slew rate toward whatever the error has become.
+  /// Ends a fault, deliberately; without one it changes nothing. Torque starts again from zero, and the clock at `now`.
+  /// The arm has moved on by itself meanwhile: call it only once the references of the controller before this block
+  /// start again where the arm is, at rest; else the torque rises at the slew rate toward whatever the error has
+  /// become.
   void reset(Time now) noexcept {
+    if (reason_ == FaultReason::none) return;
     reason_ = FaultReason::none;
     torque_.setZero();
     last_ = now;
-    started_ = true;
+    started_ = resumed_ = true;
   }
 
   /// Why there is no torque; `none` in normal work.
@@ -137,8 +142,8 @@ class SafetyLimiter {
                                        Status upstream) const noexcept {
     if (!is_finite(is)) return FaultReason::state_not_finite;
     if (!is_finite(wanted)) return FaultReason::torque_not_finite;
-    if (started_ && now <= last_) return FaultReason::clock_backwards;
-    if (started_ && now - last_ > settings_.longest_gap) return FaultReason::gap_too_long;
+    if (started_ && (now < last_ || (now == last_ && !resumed_))) return FaultReason::clock_backwards;
+    if (started_ && elapsed(now, last_) > settings_.longest_gap) return FaultReason::gap_too_long;
     const auto overshoot = is.q.cwiseMax(upper_) - upper_ + lower_ - is.q.cwiseMin(lower_);
     if ((overshoot.array() > settings_.joint_overshoot).any()) return FaultReason::joint_out_of_range;
     if (has(upstream & settings_.upstream_faults, Status::disconnected)) return FaultReason::disconnected;
@@ -194,7 +199,7 @@ class SafetyLimiter {
   Joints lower_, upper_;            // rad
   Joints torque_ = Joints::Zero();  // what the device has, N m
   Time last_{};
-  bool started_ = false;
+  bool started_ = false, resumed_ = false;  // resumed: reset since the last call
   FaultReason reason_ = FaultReason::none;
 };
 

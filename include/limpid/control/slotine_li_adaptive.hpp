@@ -84,7 +84,7 @@ class SlotineLiAdaptive {
     const auto reference = law_.reference(is, wanted);
     const Parameters direction = pose.adaptation_direction(is.qdot, reference.qdot, reference.qddot, reference.delta);
     const Scalar power = reference.delta.dot(law_.Kd.cwiseProduct(reference.delta));
-    const Scalar half_step = adapts(now) ? in_seconds<Scalar>(now - last_) / Scalar(2) : Scalar(0);
+    const Scalar half_step = adapts(now) ? in_seconds<Scalar>(elapsed(now, last_)) / Scalar(2) : Scalar(0);
     const Parameters twice_mean = direction + direction_, slope = Gamma_.cwiseProduct(twice_mean);
     // both per half_step; an overflow is no step either
     const bool sound = half_step * twice_mean.dot(slope) <= Scalar(2) * (power + power_) && is_finite(power);
@@ -113,7 +113,9 @@ class SlotineLiAdaptive {
   [[nodiscard]] const Parameters& theta_hat() const noexcept { return theta_hat_; }
 
  private:
-  [[nodiscard]] bool adapts(Time now) const noexcept { return started_ && obeyed_ && now - last_ <= longest_step_; }
+  [[nodiscard]] bool adapts(Time now) const noexcept {
+    return started_ && obeyed_ && elapsed(now, last_) <= longest_step_;
+  }
 
   R robot_;
   TrackingLaw<R> law_;

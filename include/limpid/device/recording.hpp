@@ -61,6 +61,10 @@ class Recording {
     for (double& time : recording.times_) time -= start;
     if (!(recording.times_.back() < longest)) throw std::runtime_error(name + ": expected less than a year of samples");
     recording.find_slopes();
+    if (!std::all_of(recording.slopes_.begin(), recording.slopes_.end(),
+                     [](double slope) { return std::isfinite(slope); })) {
+      throw std::runtime_error(name + ": expected forces whose slopes are finite");
+    }
     return recording;
   }
   [[nodiscard]] static Recording parse(std::istream& text, const std::string& name) {

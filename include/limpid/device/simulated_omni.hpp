@@ -86,7 +86,7 @@ class SimulatedOmni {
     if (started_) {
       if (now <= now_) return Status::clock_backwards;
       State state = state_;
-      const Status status = integrate(state, in_seconds<Scalar>(now - now_), F_h);
+      const Status status = integrate(state, in_seconds<Scalar>(elapsed(now, now_)), F_h);
       if (status != Status::ok) return status;
       state_ = state;
     }

@@ -39,7 +39,7 @@ class ErrorNorms {
   Status add(Time now, const Eigen::DenseBase<X>& e_position, const Eigen::DenseBase<V>& e_velocity) noexcept {
     const Eigen::Matrix<Scalar, Axes, 1> e_x = e_position.derived(), e_v = e_velocity.derived();
     const Scalar xx = e_x.squaredNorm(), vv = e_v.squaredNorm();
-    if (!is_finite(xx) || !is_finite(vv)) return Status::not_finite;
+    if (!is_finite(xx + vv)) return Status::not_finite;
     if (begun_ && now <= last_) return Status::clock_backwards;
     const Scalar half_dt = begun_ ? in_seconds<Scalar>(elapsed(now, last_)) / Scalar{2} : Scalar{0};
     position_.add(half_dt, xx);

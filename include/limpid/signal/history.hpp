@@ -52,7 +52,7 @@ class History {
     if (time(i) == t) return {value(i), Status::ok};
     if (i == 0) return {value(0), Status::out_of_history};
     const Scalar part = Scalar((t - time(i - 1)).count()) / Scalar((time(i) - time(i - 1)).count());
-    return {T(value(i - 1) + (value(i) - value(i - 1)) * part), Status::ok};
+    return {T(value(i - 1) * (Scalar(1) - part) + value(i) * part), Status::ok};
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
