@@ -108,10 +108,11 @@ TEST_CASE("every recording, tissue and period of Table 6.4 is predicted with a t
     CAPTURE(file.path().filename().string());
     const PressForce force = recorded_force(file.path().string(), 0.05);
     for (const double stiffness : {200.0, 800.0, 1500.0}) {
-      for (const auto& [period, gain] : settings) {
+      for (const auto& setting : settings) {
+        const double period = setting.first;
         CAPTURE(stiffness);
         CAPTURE(period);
-        Scene scene = press_on(stiffness, period, gain);
+        Scene scene = press_on(stiffness, period, setting.second);
         scene.force = force;
         scene.duration = force.duration;
         CHECK(prediction_ratio(scene) <= 0.1);
