@@ -46,5 +46,7 @@ class Limpid(ConanFile):
     def package_info(self):
         self.cpp_info.bindirs = []
         self.cpp_info.libdirs = []
+        if self.settings.os in ("Linux", "FreeBSD"):
+            self.cpp_info.system_libs = ["pthread"]
         self.cpp_info.set_property("cmake_file_name", "limpid")
         self.cpp_info.set_property("cmake_target_name", "limpid::limpid")
