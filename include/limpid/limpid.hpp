@@ -47,6 +47,10 @@
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
 
+#include <limpid/design/ball.hpp>
+#include <limpid/design/design_point.hpp>
+#include <limpid/design/verified_cholesky.hpp>
+
 #include <limpid/robot/inverse_kinematics.hpp>
 #include <limpid/robot/joint_state.hpp>
 #include <limpid/robot/omni.hpp>
