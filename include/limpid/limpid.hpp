@@ -48,7 +48,19 @@
 #include <limpid/prediction/predictor.hpp>
 
 #include <limpid/design/ball.hpp>
+#include <limpid/design/common_quadratic.hpp>
+#include <limpid/design/convex_polygon.hpp>
 #include <limpid/design/design_point.hpp>
+#include <limpid/design/largest_root.hpp>
+#include <limpid/design/mean_value_form.hpp>
+#include <limpid/design/sampled_gain.hpp>
+#include <limpid/design/sampled_polynomial.hpp>
+#include <limpid/design/sampled_proof.hpp>
+#include <limpid/design/sampled_stability.hpp>
+#include <limpid/design/sampled_varying.hpp>
+#include <limpid/design/sampled_worst.hpp>
+#include <limpid/design/second_order_enclosure.hpp>
+#include <limpid/design/second_order_flow.hpp>
 #include <limpid/design/verified_cholesky.hpp>
 
 #include <limpid/robot/inverse_kinematics.hpp>
