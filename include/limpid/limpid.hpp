@@ -50,6 +50,9 @@
 #include <limpid/design/ball.hpp>
 #include <limpid/design/common_quadratic.hpp>
 #include <limpid/design/convex_polygon.hpp>
+#include <limpid/design/delay_characteristic.hpp>
+#include <limpid/design/delay_collocation.hpp>
+#include <limpid/design/delay_stability.hpp>
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/largest_root.hpp>
 #include <limpid/design/mean_value_form.hpp>
