@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/real.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace limpid::detail {
+
+/// M dx + C' y = r,  C dx = d - C x,  with M positive definite, or nearly singular where variables depend on one
+/// another. By Cholesky's factor of M, refined. Of M the lower triangle is filled in.
+///
+/// This one is for a fixed number of unknowns and one equation.
+template <Real Scalar, int unknowns, int equations>
+class SchurSystem {
+  static_assert(equations == 1, "SchurSystem: of fixed size there is one equation");
+
+ public:
+  using Vector = Eigen::Matrix<Scalar, unknowns, 1>;
+  using Row = Eigen::Matrix<Scalar, 1, unknowns>;
+  using Multiplier = Eigen::Matrix<Scalar, 1, 1>;
+
+  void clear(Eigen::Index) { M_.fill(Scalar{0}); }
+  [[nodiscard]] Scalar& operator()(int i, int j) { return M_[at(i, j)]; }
+
+  /// False where M is too far from positive definite.
+  [[nodiscard]] bool factorise(const Row& C) {
+    for (int i = 0; i < unknowns; ++i) {
+      if (M_[at(i, i)] == Scalar{0}) M_[at(i, i)] = Scalar{1};  // a variable that is in no block
+    }
+    Scalar shift = std::numeric_limits<Scalar>::epsilon();
+    for (int attempt = 0; !decompose(); ++attempt, shift *= Scalar{256}) {
+      if (attempt == 5) return false;
+      for (int i = 0; i < unknowns; ++i) M_[at(i, i)] *= Scalar{1} + shift;
+    }
+    for (int i = 0; i < unknowns; ++i) by_equation_[i] = C[i];
+    substitute(by_equation_);
+    Scalar product{0};
+    for (int i = 0; i < unknowns; ++i) product += C[i] * by_equation_[i];
+    equation_ = product;
+    return product > Scalar{0};
+  }
+
+  void solve(const Vector& right, const Row& C, const Multiplier& rest_of_equation, Vector& dx, Multiplier& y,
+             int rounds) const {
+    for (int i = 0; i < unknowns; ++i) dx[i] = Scalar{0};
+    y[0] = Scalar{0};
+    for (int round = 0; round < rounds; ++round) {
+      Vector more;
+      Scalar missing = -rest_of_equation[0];
+      for (int i = 0; i < unknowns; ++i) {
+        Scalar sum = right[i] - C[i] * y[0];
+        for (int j = 0; round > 0 && j < unknowns; ++j) sum -= M_[i >= j ? at(i, j) : at(j, i)] * dx[j];
+        more[i] = sum;
+        missing += C[i] * dx[i];
+      }
+      substitute(more);
+      for (int i = 0; i < unknowns; ++i) missing += C[i] * more[i];
+      const Scalar dy = missing / equation_;
+      y[0] += dy;
+      for (int i = 0; i < unknowns; ++i) dx[i] += more[i] - by_equation_[i] * dy;
+    }
+  }
+
+ private:
+  using Square = std::array<Scalar, static_cast<std::size_t>(unknowns) * unknowns>;
+
+  [[nodiscard]] static constexpr std::size_t at(int i, int j) { return static_cast<std::size_t>(i * unknowns + j); }
+
+  [[nodiscard]] static auto segment(Scalar& first, int size) {
+    return Eigen::Map<Eigen::Array<Scalar, Eigen::Dynamic, 1>>(&first, size);
+  }
+
+  // M = L D L', L below the diagonal of factor_, 1/D on it.
+  [[nodiscard]] bool decompose() {
+    factor_ = M_;
+    std::array<Scalar, static_cast<std::size_t>(unknowns)> column;
+    for (int j = 0; j < unknowns; ++j) {
+      if (!(factor_[at(j, j)] > Scalar{0})) return false;
+      const Scalar reciprocal = Scalar{1} / factor_[at(j, j)];
+      factor_[at(j, j)] = reciprocal;
+      for (int i = j + 1; i < unknowns; ++i) {
+        column[static_cast<std::size_t>(i)] = factor_[at(i, j)];
+        factor_[at(i, j)] *= reciprocal;
+        segment(factor_[at(i, j + 1)], i - j) -=
+            factor_[at(i, j)] * segment(column[static_cast<std::size_t>(j) + 1], i - j);
+      }
+    }
+    return true;
+  }
+  void substitute(Vector& b) const {
+    for (int i = 1; i < unknowns; ++i) {
+      Scalar sum = b[i];
+      for (int j = 0; j < i; ++j) sum -= factor_[at(i, j)] * b[j];
+      b[i] = sum;
+    }
+    for (int i = 0; i < unknowns; ++i) b[i] *= factor_[at(i, i)];
+    for (int i = unknowns - 1; i > 0; --i) {
+      const Scalar solved = b[i];
+      for (int j = 0; j < i; ++j) b[j] -= factor_[at(i, j)] * solved;
+    }
+  }
+
+  Square M_, factor_;
+  Vector by_equation_;  // M^-1 C'
+  Scalar equation_{0};  // C M^-1 C'
+};
+
+/// M = L L' of dynamic size: up to some dozens of unknowns by plain loops, L D L', beyond by Eigen's blocked ones.
+template <Real Scalar>
+class DynamicFactor {
+ public:
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  /// False where M, of which the lower triangle is read, is not positive definite beyond rounding. It is singular
+  /// wherever a combination of the variables is what another does, as P = I is for F(x) - t I.
+  [[nodiscard]] bool compute(const Matrix& M) {
+    small_ = M.rows() <= small;
+    if (!small_) {
+      blocked_.compute(M);
+      return blocked_.info() == Eigen::Success;
+    }
+    L_ = M;
+    const Eigen::Index n = L_.rows();
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (!(L_(j, j) > M(j, j) * least_pivot())) return false;
+      const Scalar reciprocal = Scalar{1} / L_(j, j);
+      for (Eigen::Index k = j + 1; k < n; ++k) {
+        L_.col(k).tail(n - k) -= (L_(k, j) * reciprocal) * L_.col(j).tail(n - k);
+      }
+      L_.col(j).tail(n - j - 1) *= reciprocal;
+      L_(j, j) = reciprocal;  // 1/D
+    }
+    return true;
+  }
+  /// M^-1 right
+  [[nodiscard]] Matrix solve(Matrix right) const {
+    if (!small_) return blocked_.solve(right);
+    for (Eigen::Index c = 0; c < right.cols(); ++c) substitute(right.col(c));
+    return right;
+  }
+
+ private:
+  static constexpr Eigen::Index small = 48;
+  static constexpr Scalar least_pivot() { return Scalar{8} * std::numeric_limits<Scalar>::epsilon(); }
+
+  void substitute(Eigen::Ref<Vector> b) const {
+    const Eigen::Index n = L_.rows();
+    for (Eigen::Index j = 0; j < n; ++j) b.tail(n - j - 1) -= b[j] * L_.col(j).tail(n - j - 1);
+    b.array() *= L_.diagonal().array();
+    for (Eigen::Index j = n; j-- > 0;) b[j] -= L_.col(j).tail(n - j - 1).dot(b.tail(n - j - 1));
+  }
+
+  Matrix L_;  // below the diagonal; on it 1/D
+  Eigen::LLT<Matrix> blocked_;
+  bool small_ = false;
+};
+
+/// Any number of unknowns and equations.
+template <Real Scalar>
+class SchurSystem<Scalar, Eigen::Dynamic, Eigen::Dynamic> {
+ public:
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  void clear(Eigen::Index unknowns) { M_.setZero(unknowns, unknowns); }
+  [[nodiscard]] Scalar& operator()(int i, int j) { return M_(i, j); }
+
+  [[nodiscard]] bool factorise(const Matrix& C) {
+    for (Eigen::Index i = 0; i < M_.rows(); ++i) {
+      if (M_(i, i) == Scalar{0}) M_(i, i) = Scalar{1};
+    }
+    Scalar shift = std::numeric_limits<Scalar>::epsilon();
+    for (int attempt = 0;; ++attempt, shift *= Scalar{256}) {
+      if (factor_.compute(M_)) break;
+      if (attempt == 5) return false;
+      M_.diagonal() *= Scalar{1} + shift;
+    }
+    if (C.rows() != 0) {
+      by_equations_ = factor_.solve(C.transpose());
+      equations_.compute(C * by_equations_);
+    }
+    return true;
+  }
+
+  void solve(const Vector& right, const Matrix& C, const Vector& rest_of_equations, Vector& dx, Vector& y,
+             int rounds) const {
+    dx = Vector::Zero(right.size());
+    y = Vector::Zero(C.rows());
+    for (int round = 0; round < rounds; ++round) {
+      Vector rest = right - M_.template selfadjointView<Eigen::Lower>() * dx;
+      if (C.rows() != 0) rest -= C.transpose() * y;
+      Vector more = factor_.solve(rest);
+      if (C.rows() != 0) {
+        const Vector dy = equations_.solve(C * (dx + more) - rest_of_equations);
+        more -= by_equations_ * dy;
+        y += dy;
+      }
+      dx += more;
+    }
+  }
+
+ private:
+  Matrix M_;
+  DynamicFactor<Scalar> factor_;
+  Matrix by_equations_;           // M^-1 C'
+  Eigen::LLT<Matrix> equations_;  // C M^-1 C'
+};
+
+}  // namespace limpid::detail
