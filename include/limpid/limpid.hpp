@@ -63,6 +63,15 @@
 #include <limpid/design/gain_vertices.hpp>
 #include <limpid/design/interior_point.hpp>
 #include <limpid/design/largest_root.hpp>
+#include <limpid/design/lmi.hpp>
+#include <limpid/design/lmi_block.hpp>
+#include <limpid/design/lmi_certificate.hpp>
+#include <limpid/design/lmi_dual_certificate.hpp>
+#include <limpid/design/lmi_expression.hpp>
+#include <limpid/design/lmi_problem.hpp>
+#include <limpid/design/lmi_result.hpp>
+#include <limpid/design/lmi_scaling.hpp>
+#include <limpid/design/lmi_solver.hpp>
 #include <limpid/design/margin_problem.hpp>
 #include <limpid/design/mean_value_form.hpp>
 #include <limpid/design/pack.hpp>
@@ -74,6 +83,7 @@
 #include <limpid/design/sampled_stability.hpp>
 #include <limpid/design/sampled_varying.hpp>
 #include <limpid/design/sampled_worst.hpp>
+#include <limpid/design/scaled_lmi.hpp>
 #include <limpid/design/scaled_point.hpp>
 #include <limpid/design/schur_system.hpp>
 #include <limpid/design/sdp_problem.hpp>
