@@ -42,11 +42,13 @@
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
 #include <limpid/estimation/ud_factors.hpp>
 
+#include <limpid/prediction/gain_table.hpp>
 #include <limpid/prediction/gains.hpp>
 #include <limpid/prediction/hold_predictor.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
 
+#include <limpid/design/adaptation_rate.hpp>
 #include <limpid/design/ball.hpp>
 #include <limpid/design/block_group.hpp>
 #include <limpid/design/block_matrix.hpp>
@@ -58,10 +60,14 @@
 #include <limpid/design/delay_stability.hpp>
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/fixed_gain_lmi.hpp>
+#include <limpid/design/gain_choice.hpp>
 #include <limpid/design/gain_dual.hpp>
 #include <limpid/design/gain_lmi.hpp>
+#include <limpid/design/gain_spline.hpp>
 #include <limpid/design/gain_vertices.hpp>
 #include <limpid/design/interior_point.hpp>
+#include <limpid/design/largest_box.hpp>
+#include <limpid/design/largest_certified_box.hpp>
 #include <limpid/design/largest_root.hpp>
 #include <limpid/design/lmi.hpp>
 #include <limpid/design/lmi_block.hpp>
@@ -75,8 +81,13 @@
 #include <limpid/design/margin_problem.hpp>
 #include <limpid/design/mean_value_form.hpp>
 #include <limpid/design/pack.hpp>
+#include <limpid/design/predictor_bounds.hpp>
+#include <limpid/design/predictor_margin.hpp>
 #include <limpid/design/primal_dual_method.hpp>
+#include <limpid/design/printed_theorem5.hpp>
+#include <limpid/design/printed_theorems.hpp>
 #include <limpid/design/reduced_lmi.hpp>
+#include <limpid/design/reduced_theorem.hpp>
 #include <limpid/design/sampled_gain.hpp>
 #include <limpid/design/sampled_polynomial.hpp>
 #include <limpid/design/sampled_proof.hpp>
@@ -91,6 +102,7 @@
 #include <limpid/design/second_order_flow.hpp>
 #include <limpid/design/slow_mode.hpp>
 #include <limpid/design/small_matrix.hpp>
+#include <limpid/design/spline_design.hpp>
 #include <limpid/design/theorem3.hpp>
 #include <limpid/design/theorem3_design.hpp>
 #include <limpid/design/theorem5.hpp>
