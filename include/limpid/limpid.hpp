@@ -65,6 +65,7 @@
 #include <limpid/design/gain_lmi.hpp>
 #include <limpid/design/gain_spline.hpp>
 #include <limpid/design/gain_vertices.hpp>
+#include <limpid/design/grid.hpp>
 #include <limpid/design/interior_point.hpp>
 #include <limpid/design/largest_box.hpp>
 #include <limpid/design/largest_certified_box.hpp>
@@ -78,6 +79,7 @@
 #include <limpid/design/lmi_result.hpp>
 #include <limpid/design/lmi_scaling.hpp>
 #include <limpid/design/lmi_solver.hpp>
+#include <limpid/design/map.hpp>
 #include <limpid/design/margin_problem.hpp>
 #include <limpid/design/mean_value_form.hpp>
 #include <limpid/design/pack.hpp>
