@@ -10,8 +10,8 @@ using namespace limpid::palpation;
 using namespace std::chrono_literals;
 
 using Arm = Omni<>;
-using Tissue = KelvinVoigt<1>;  // the model that is estimated: F = k x + b v
-using Model = ModelPredictor<Tissue>;
+using SoftTissue = KelvinVoigt<1>;  // the model that is estimated: F = k x + b v
+using Model = ModelPredictor<SoftTissue>;
 using Controller = SlotineLiAdaptive<Arm>;
 
 int main() {
@@ -23,10 +23,10 @@ int main() {
   auto loop = make_loop<wants<AllowedTorque<Arm>>,
                         inputs<OperatorForce<>, ForceOnArm<>, TrueTool<>, MeasuredState<Arm>>>(  // blocks in any order
       SamplingBlock<>{DelayedSampled<ToolState<1>>({.period = 100ms, .delay = 100ms})},
-      AdaptationBlock<Tissue>{EnvironmentEstimator<Tissue>(
+      AdaptationBlock<SoftTissue>{EnvironmentEstimator<SoftTissue>(
           {.environment = {},
            .law = {.lower = {200, 20}, .upper = {2000, 40}, .initial = {1100, 30}, .initial_gain = {1e9, 8e6}}})},
-      AdaptivePredictionBlock<Model, Tissue>{
+      AdaptivePredictionBlock<Model, SoftTissue>{
           Model({.environment = {}, .tool = tool, .theta = {1100, 30}, .gain = {-195.1, -4.89}})},
       KinematicsBlock<OmniKinematics<>, Arm>{OmniKinematics<>(arm), arm.at(start).position()},
       TrackingBlock<Controller, Arm>{Controller({.Lambda = {2.8, 3.0, 1.5},
@@ -35,7 +35,7 @@ int main() {
                                                  .theta0 = theta})},
       SafetyBlock<Arm>{SafetyLimiter<Arm>({})});
 
-  VirtualTool<Tissue> tissue({.theta = {800, 30}, .tool = tool});  // the truth, which the loop sees late
+  VirtualTool<SoftTissue> tissue({.theta = {800, 30}, .tool = tool});  // the truth, which the loop sees late
   SimulatedOmni<> device({.theta = theta, .q0 = start});
   double error = 0;
   for (Time now = 0ms; now <= 5s; now += 1ms) {

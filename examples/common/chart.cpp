@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "chart.hpp"
-#include "output_file.hpp"
+#include "gnuplot.hpp"
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <sstream>
-#include <stdexcept>
 
 namespace limpid::examples {
 
 namespace {
-
-bool gnuplot_is_installed() { return std::system("command -v gnuplot >/dev/null 2>&1") == 0; }
-
-// A gnuplot string between single quotes: a quote is doubled; a line break would end it, and the command.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20) throw std::runtime_error("a chart's text has a control character");
-    result += c;
-    if (c == '\'') result += c;
-  }
-  return result + "'";
-}
 
 void write_data(std::ostream& out, const Chart& chart) {
   out.precision(10);
@@ -54,8 +35,7 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t index) {
 
 std::string script(const Chart& chart, const std::string& svg_path) {
   std::ostringstream out;
-  out << "set terminal svg size 960," << 60 + 270 * chart.panels.size()
-      << " dynamic background 'white' font 'sans,12'\nset output " << quoted(svg_path) << '\n';
+  out << svg_terminal(960, 60 + 270 * static_cast<int>(chart.panels.size()), svg_path);
   write_data(out, chart);
   out << "set grid\nset key outside right top\nset lmargin 12\nset rmargin 26\nset multiplot layout "
       << chart.panels.size() << ",1 title " << quoted(chart.title) << " noenhanced\n";
@@ -78,33 +58,11 @@ std::string as_csv(const Chart& chart) {
   return out.str();
 }
 
-// gnuplot tells of a full disk neither by its exit code nor in words.
-bool is_whole_svg(const std::string& path) {
-  std::ifstream file(path);
-  std::string last, line;
-  while (std::getline(file, line)) {
-    if (!line.empty()) last = line;
-  }
-  return last.find("</svg>") != std::string::npos;
-}
-
 }  // namespace
 
 std::string draw(const Chart& chart, const std::string& svg_path) {
-  if (!gnuplot_is_installed()) {
-    const std::string csv_path = std::filesystem::path(svg_path).replace_extension(".curves.csv").string();
-    write_file(csv_path, as_csv(chart));
-    std::cerr << "gnuplot is not installed (Debian: gnuplot-nox): the curves are in " << csv_path << '\n';
-    return csv_path;
-  }
-  write_file(svg_path, "");
-  const std::string text = script(chart, svg_path);
-  FILE* gnuplot = ::popen("gnuplot", "w");
-  if (gnuplot == nullptr) throw std::runtime_error("gnuplot: cannot be started");
-  const bool written = std::fwrite(text.data(), 1, text.size(), gnuplot) == text.size();
-  if (::pclose(gnuplot) != 0 || !written || !is_whole_svg(svg_path)) {
-    throw std::runtime_error(svg_path + ": gnuplot failed");
-  }
+  if (!gnuplot_is_installed()) return write_instead(svg_path, as_csv(chart));
+  run_gnuplot(script(chart, svg_path), svg_path);
   return svg_path;
 }
 

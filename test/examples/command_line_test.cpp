@@ -1,42 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
+#include <support/run_program.hpp>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include <sys/wait.h>
-
 namespace {
 
-struct Run {
-  int code;
-  std::string output;  // both streams
-};
+using limpid::test::ProgramRun;
 
-Run run(const std::string& program, const std::string& arguments) {
-  const std::string command = std::string(LIMPID_EXAMPLES_DIR) + "/" + program + " " + arguments + " 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  Run result{0, {}};
-  std::array<char, 256> piece;
-  while (std::fgets(piece.data(), piece.size(), pipe) != nullptr) result.output += piece.data();
-  const int status = ::pclose(pipe);
-  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return result;
+ProgramRun run(const std::string& program, const std::string& arguments) {
+  return limpid::test::run_program(program, arguments);
 }
-
-bool mentions(const Run& run, const std::string& text) { return run.output.find(text) != std::string::npos; }
 
 void refused(const std::string& arguments, const std::string& option) {
   CAPTURE(arguments);
-  const Run result = run("palpate", arguments);
+  const ProgramRun result = run("palpate", arguments);
   CAPTURE(result.output);
   CHECK(result.code != 0);
-  CHECK(mentions(result, option));
+  CHECK(result.mentions(option));
 }
 
 }  // namespace
@@ -76,15 +60,15 @@ TEST_CASE("palpate refuses options that contradict each other") {
 TEST_CASE("palpate says where a recording is broken") {
   const auto path = std::filesystem::temp_directory_path() / "limpid_broken_recording.csv";
   std::ofstream(path) << "time,force\n0,1\n0.02,two\n";
-  const Run result = run("palpate", "--force " + path.string());
+  const ProgramRun result = run("palpate", "--force " + path.string());
   std::filesystem::remove(path);
   CHECK(result.code != 0);
-  CHECK(mentions(result, "line 3, column 2"));
+  CHECK(result.mentions("line 3, column 2"));
 }
 
 TEST_CASE("palpate writes the figures of every predictor as JSON") {
   const auto path = std::filesystem::temp_directory_path() / "limpid_palpate.json";
-  const Run result = run("palpate", "--duration 3 --json " + path.string());
+  const ProgramRun result = run("palpate", "--duration 3 --json " + path.string());
   CAPTURE(result.output);
   REQUIRE(result.code == 0);
   const nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
@@ -107,7 +91,7 @@ TEST_CASE("palpate writes the figures of every predictor as JSON") {
 
 TEST_CASE("palpate draws its plot, or says that gnuplot is absent and writes the curves") {
   const auto path = std::filesystem::temp_directory_path() / "limpid_palpate.svg";
-  const Run result = run("palpate", "--duration 2 --plot " + path.string());
+  const ProgramRun result = run("palpate", "--duration 2 --plot " + path.string());
   CAPTURE(result.output);
   CHECK(result.code == 0);
   const auto curves = std::filesystem::path(path).replace_extension(".csv");
