@@ -22,6 +22,10 @@ SectionReport run_section(const std::string& section, std::optional<int> number)
   if (section == "6.1.1") return section_6_1_1();
   if (section == "6.1.2") return section_6_1_2();
   if (section == "6.1.3") return section_6_1_3();
+  if (section == "6.2.1") return section_6_2_1();
+  if (section == "6.2.2") return section_6_2_2();
+  if (section == "7.1") return section_7_1();
+  if (section == "7.2") return section_7_2();
   return section_6_1_4(number);
 }
 
@@ -63,9 +67,14 @@ Json as_json(const SectionReport& report) {
 
 void write_charts(const std::string& folder, const SectionReport& report) {
   std::filesystem::create_directories(folder);
-  for (const auto& [name, chart] : report.charts) {
-    std::cout << "plot: " << draw(chart, (std::filesystem::path(folder) / (name + ".svg")).string()) << '\n';
-  }
+  const auto draw_all = [&](const auto& plots) {
+    for (const auto& plot : plots) {
+      const auto path = std::filesystem::path(folder) / (plot.first + ".svg");
+      std::cout << "plot: " << draw(plot.second, path.string()) << '\n';
+    }
+  };
+  draw_all(report.charts);
+  draw_all(report.heat_maps);
 }
 
 }  // namespace
@@ -76,7 +85,7 @@ int main(int argc, char** argv) {
   int number = 0;
   app.add_option("--section", section, "of the thesis")
       ->required()
-      ->check(CLI::IsMember({"5.2.7", "6.1.1", "6.1.2", "6.1.3", "6.1.4"}));
+      ->check(CLI::IsMember({"5.2.7", "6.1.1", "6.1.2", "6.1.3", "6.1.4", "6.2.1", "6.2.2", "7.1", "7.2"}));
   CLI::Option* one = app.add_option("--case", number, "one row of Table 6.5 (6.1.4)")->check(CLI::Range(1, 9));
   app.add_option("--json", json, "write the figures here");
   app.add_option("--plot", plot, "draw the thesis's figures into this folder (SVG)");

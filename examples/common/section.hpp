@@ -2,6 +2,7 @@
 #pragma once
 
 #include "chart.hpp"
+#include "heat_map.hpp"
 
 #include <optional>
 #include <string>
@@ -31,7 +32,8 @@ struct SectionReport {
   std::string title;
   std::vector<Comparison> figures{};
   std::vector<CaseComparison> cases{};
-  std::vector<std::pair<std::string, Chart>> charts{};  ///< file name without folder and ending
+  std::vector<std::pair<std::string, Chart>> charts{};       ///< file name without folder and ending
+  std::vector<std::pair<std::string, HeatMap>> heat_maps{};  ///< likewise
 };
 
 [[nodiscard]] SectionReport section_5_2_7();
@@ -41,5 +43,11 @@ struct SectionReport {
 
 /// @param number  of the one case to run; all nine, and the one without tool spring, where absent
 [[nodiscard]] SectionReport section_6_1_4(std::optional<int> number);
+
+/// Of these the gains and their stability regions; the runs are not among them.
+[[nodiscard]] SectionReport section_6_2_1();
+[[nodiscard]] SectionReport section_6_2_2();
+[[nodiscard]] SectionReport section_7_1();
+[[nodiscard]] SectionReport section_7_2();
 
 }  // namespace limpid::examples

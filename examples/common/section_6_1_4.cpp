@@ -2,6 +2,7 @@
 // Section 6.1.4: the complete system, Table 6.5.
 #include "scene.hpp"
 #include "section.hpp"
+#include "stability_regions.hpp"
 #include "trace_curve.hpp"
 
 #include <array>
@@ -122,6 +123,19 @@ void add_case_without_spring(SectionReport& report) {
       {"fig_6_29", error_chart("Fig. 6.29: total error, case 9 with k_t = 0", pair, &TracePoint::total_error)});
 }
 
+// Table 6.4's last column and Fig. 6.15.
+void add_stability_regions(SectionReport& report) {
+  const DesignSetting setting{.design = {.tool = {.mass = 0.1, .damping = 0.1, .stiffness = 1}},
+                              .nominal = {1100, 30},
+                              .rates = {},
+                              .grid = thesis_grid(20)};
+  for (const Case* which : {&table_6_5[0], &table_6_5[1], &table_6_5[2]}) {
+    const bool last = which->period == 0.1;
+    add_constant_gain(report, setting, {which->period, {which->gain[0], which->gain[1]}, {}, last ? "6.15" : "", ""},
+                      last ? "Table 6.4: not stable over the full range" : "Table 6.4: stable over the full range");
+  }
+}
+
 }  // namespace
 
 SectionReport section_6_1_4(std::optional<int> number) {
@@ -134,7 +148,9 @@ SectionReport section_6_1_4(std::optional<int> number) {
                             which.printed_bound, which.printed_l2});
     add_charts(report, which, pair);
   }
-  if (!number) add_case_without_spring(report);
+  if (number) return report;
+  add_case_without_spring(report);
+  add_stability_regions(report);
   return report;
 }
 

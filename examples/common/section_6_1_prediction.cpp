@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Sections 6.1.1 to 6.1.3: the predictor without a robot, with the printed gains.
+#include "design_judge.hpp"
+#include "figure_6_1.hpp"
 #include "prediction_study.hpp"
 #include "section.hpp"
 #include "study_curve.hpp"
+#include "design_instances.hpp"
 
 #include <array>
 #include <cmath>
@@ -75,16 +78,40 @@ void add_unknown_case(SectionReport& report, const std::string& name, const Pred
          {"damping", "time (s)", "b (N s/m)", {curve("estimated", points, &StudyPoint::damping)}}}}});
 }
 
-// gamma scales the whole inequality (4.31): one gain serves every gamma, and the error does not depend on it. The bound
-// of Fig. 6.7 needs a solution of the inequality, not its gain alone.
-Chart gamma_chart(const std::string& title, double ratio) {
-  Curve flat{"printed gain", {}, {}};
+// gamma scales the whole inequality (4.31): one gain serves every gamma, and neither the error nor the best bound
+// depends on it.
+Curve flat_curve(const std::string& name, double value) {
+  Curve flat{name, {}, {}};
   for (double gamma = 10; gamma <= 1000; gamma += 10) {
     flat.x.push_back(gamma);
-    flat.y.push_back(ratio);
+    flat.y.push_back(value);
   }
+  return flat;
+}
+
+Chart gamma_chart(const std::string& title, double ratio) {
   return {title + "; Theorem 3 is feasible with one L for all gamma",
-          {{"largest error over hold's", "gamma", "ratio", {flat}}}};
+          {{"largest error over hold's", "gamma", "ratio", {flat_curve("printed gain", ratio)}}}};
+}
+
+// Fig. 6.7: what (4.32) guarantees, with the best variables and not those at which a solver ended.
+void add_error_bounds(SectionReport& report) {
+  const PredictorDesign<> design{.tool = sampled_study(2000).tool, .T_d = 1.0 / 60};
+  const Gain<> L(-574.1, -7.260);
+  const double printed = error_bound(design, {2000, 25}, L, true), tight = error_bound(design, {2000, 25}, L, false);
+  report.figures.push_back({"Fig. 6.7: bound (4.32) of |e| over |Delta_T|, as printed",
+                            printed,
+                            {},
+                            "1",
+                            "the same for every gamma; the thesis's variables: on the order of 1e5"});
+  report.figures.push_back({"Fig. 6.7: the same with gamma B for gamma I", tight, {}, "1", "as linear, and tighter"});
+  report.charts.push_back({"fig_6_7",
+                           {"Fig. 6.7: guaranteed error over that of sampling, k = 2000 N/m",
+                            {{"bound (4.32)",
+                              "gamma",
+                              "ratio",
+                              {flat_curve("as printed", printed), flat_curve("with gamma B", tight)},
+                              true}}}});
 }
 
 }  // namespace
@@ -112,6 +139,7 @@ SectionReport section_6_1_1() {
                              {"velocity error", "time (s)", "m/s", {curve("v", points, [](const StudyPoint& p) {
                                 return p.v_predicted - p.v;
                               })}}}}});
+  add_figure_6_1(report);
   return report;
 }
 
@@ -128,6 +156,7 @@ SectionReport section_6_1_2() {
   report.charts.push_back({"fig_6_4", {"Fig. 6.4: errors, k = 2000 N/m", error_panels(stiff)}});
   report.charts.push_back({"fig_6_5", {"Fig. 6.5: errors, k = 200 N/m", error_panels(soft)}});
   report.charts.push_back({"fig_6_6", gamma_chart("Fig. 6.6: k = 2000 N/m", peak_ratio(stiff))});
+  add_error_bounds(report);
   report.charts.push_back({"fig_6_8", gamma_chart("Fig. 6.8: k = 200 N/m", peak_ratio(soft))});
   return report;
 }
