@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Fig. 6.1: what a2 and a3 of Theorem 2 do to the error, with a gain that does not depend on a solver's path.
 #include "figure_6_1.hpp"
+#include "design_instances.hpp"
 #include "design_judge.hpp"
 #include "prediction_study.hpp"
-#include "design_instances.hpp"
 
 #include <cmath>
 #include <limits>

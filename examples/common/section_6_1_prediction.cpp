@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Sections 6.1.1 to 6.1.3: the predictor without a robot, with the printed gains.
+#include "design_instances.hpp"
 #include "design_judge.hpp"
 #include "figure_6_1.hpp"
 #include "prediction_study.hpp"
 #include "section.hpp"
 #include "study_curve.hpp"
-#include "design_instances.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include "stability_regions.hpp"
 
 #include "design_cell.hpp"
-#include "design_words.hpp"
 #include "design_instances.hpp"
+#include "design_words.hpp"
 
 #include <limpid/design/sampled_stability.hpp>
 

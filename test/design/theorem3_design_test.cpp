@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "design/theorem_reference.hpp"
-#include "support/no_allocation.hpp"
 #include "design_instances.hpp"
+#include "support/no_allocation.hpp"
 
 #include <limpid/design/theorem3_design.hpp>
 

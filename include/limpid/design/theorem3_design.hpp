@@ -111,8 +111,8 @@ template <Real Scalar>
   return detail::design_gain<1>(design, std::span<const Tissue<Scalar>>(&tissue, 1), tissue, neighbour);
 }
 
-/// One gain for every tissue of a box, with common P, Q, R, X: tissues may change at any rate. Where infeasible there is
-/// no such gain with a common X; `verify_theorem3`, which needs none, may still accept one.
+/// One gain for every tissue of a box, with common P, Q, R, X: tissues may change at any rate. Where infeasible there
+/// is no such gain with a common X; `verify_theorem3`, which needs none, may still accept one.
 template <Real Scalar>
 [[nodiscard]] GainDesign<Scalar, 4> design_theorem3(const PredictorDesign<Scalar>& design, const TissueBox<Scalar>& box,
                                                     const GainCertificate<Scalar, 4>* neighbour = nullptr) {
