@@ -177,11 +177,13 @@ class SchurSystem<Scalar, Eigen::Dynamic, Eigen::Dynamic> {
       if (M_(i, i) == Scalar{0}) M_(i, i) = Scalar{1};
     }
     Scalar shift = std::numeric_limits<Scalar>::epsilon();
-    for (int attempt = 0;; ++attempt, shift *= Scalar{256}) {
-      if (factor_.compute(M_)) break;
-      if (attempt == 5) return false;
-      M_.diagonal() *= Scalar{1} + shift;
+    bool done = factor_.compute(M_);
+    for (int attempt = 0; !done && attempt < 5; ++attempt, shift *= Scalar{256}) {
+      Matrix shifted = M_;  // the refinement is of M itself
+      shifted.diagonal() *= Scalar{1} + shift;
+      done = factor_.compute(shifted);
     }
+    if (!done) return false;
     if (C.rows() != 0) {
       by_equations_ = factor_.solve(C.transpose());
       equations_.compute(C * by_equations_);
