@@ -59,7 +59,7 @@ Run run(const Gain<>& first, bool redesign) {
       const auto theta = estimator.estimate().theta_hat;
       Gain<> L;
       const bool certified = design({theta(0, 0), theta(0, 1)}, L);
-      if (certified && predictor.use({L[0], L[1]}) == Status::ok) {
+      if (certified && predictor.replace_gain({L[0], L[1]}) == Status::ok) {
         result.L = L;
         ++result.certified;
       }

@@ -118,7 +118,7 @@ class ModelPredictor {
 
   /// Takes in a gain designed anew; it holds from the next `advance` on.
   /// @return  not_finite: it is not, or L e_zd / m_t is not; the one before stays
-  [[nodiscard]] Status use(const Gain& gain) noexcept requires(!Gain::scheduled) {
+  [[nodiscard]] Status replace_gain(const Gain& gain) noexcept requires(!Gain::scheduled) {
     const auto& L = gain.row();
     if (!is_finite(L.L1) || !is_finite(L.L2)) return Status::not_finite;
     if (!is_finite(Vector(L(error_.x, error_.v) / tool_.mass))) return Status::not_finite;
