@@ -26,7 +26,8 @@ template <Real Scalar>
 class Ball {
  public:
   constexpr Ball() = default;
-  constexpr Ball(const Scalar& exact) : centre_{exact}, radius_{exact - exact} {}  // NaN unless finite
+  // x - x is zero, or NaN where x is not finite. NOLINTBEGIN(misc-redundant-expression)
+  constexpr Ball(const Scalar& exact) : centre_{exact}, radius_{exact - exact} {}
   constexpr Ball(int exact) requires(std::numeric_limits<Scalar>::digits >= 31) : Ball(Scalar(exact)) {}
   /// @param radius  >= 0
   constexpr Ball(const Scalar& centre, const Scalar& radius) : centre_{centre}, radius_{radius + (centre - centre)} {}
@@ -37,6 +38,7 @@ class Ball {
     const Scalar centre = lower / Scalar{2} + upper / Scalar{2};
     return {centre, enlarged(std::max<Scalar>(upper - centre, centre - lower) + (upper - upper) + (lower - lower))};
   }
+  // NOLINTEND(misc-redundant-expression)
   [[nodiscard]] static constexpr Ball whole_line() { return {Scalar{0}, std::numeric_limits<Scalar>::infinity()}; }
 
   [[nodiscard]] const Scalar& centre() const { return centre_; }

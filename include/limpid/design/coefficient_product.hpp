@@ -22,7 +22,7 @@ class SmallCoefficientProduct {
  public:
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  SmallCoefficientProduct(const Matrix& Z, const Matrix& S_inverse)
+  SmallCoefficientProduct(const Matrix& Z, const Matrix& S_inverse)  // NOLINT(*-member-init): filled in its body
       : size_{static_cast<int>(Z.rows())}, chunks_{(size_ + 3) / 4} {
     for (int j = 0; j < size_; ++j) {
       for (int i = 0; i < 4 * chunks_; ++i) {
@@ -71,7 +71,9 @@ class SmallCoefficientProduct {
   static constexpr int stride = static_cast<int>(small_block);
   using Columns = std::array<Scalar, static_cast<std::size_t>(stride) * stride>;
 
-  [[nodiscard]] static constexpr std::size_t at(int i, int j) { return static_cast<std::size_t>(j * stride + i); }
+  [[nodiscard]] static constexpr std::size_t at(int i, int j) {
+    return static_cast<std::size_t>(j * stride + i);  // NOLINT(bugprone-misplaced-widening-cast): below a thousand
+  }
   [[nodiscard]] static Eigen::Map<Quad> chunk(Columns& A, int c, int j) { return Eigen::Map<Quad>(&A[at(4 * c, j)]); }
 
   // Column by column, each kept in registers.

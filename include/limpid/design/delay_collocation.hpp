@@ -58,7 +58,7 @@ template <Real Scalar>
   expect(points >= 4 && points <= 256, "collocated_delay_roots: points", "4 to 256", points);
   const Matrix D = detail::chebyshev_derivative<Scalar>(points) * (Scalar{2} / f.delay);
   // Position and velocity at each point, that of theta = 0 first.
-  const Eigen::Index last = 2 * points;
+  const Eigen::Index last = Eigen::Index{2} * points;
   Matrix A = Matrix::Zero(last + 2, last + 2);
   A(0, 1) = Scalar{1};
   A(1, 0) = -f.kappa;

@@ -63,8 +63,8 @@ class LmiExpression {
   static constexpr int constant = -1;
 
   template <typename Number>
-  requires std::convertible_to<Number, Factor> LmiExpression(const Number& number)
-      : LmiExpression(nullptr, 1, 1) {  // NOLINT: implicit, as in P > 0
+  requires std::convertible_to<Number, Factor> LmiExpression(const Number& number)  // NOLINT(*-member-init): delegates
+      : LmiExpression(nullptr, 1, 1) {                                              // NOLINT: implicit, as in P > 0
     if constexpr (std::is_arithmetic_v<Number>) {
       add(constant, 0, 0, Factor(static_cast<Scalar>(number)));
     } else {

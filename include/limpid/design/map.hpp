@@ -131,7 +131,8 @@ requires std::default_initializable<Result> && std::invocable < Test&, const Tis
   grid.check();
   expect(settings.threads >= 0, "MapSettings: threads", ">= 0", settings.threads);
   const std::size_t columns = grid.columns(), cells = grid.size();
-  const std::unique_ptr<Result[]> results(new Result[cells]{});  // no vector: vector<bool> cannot be filled in parallel
+  // No vector: vector<bool> cannot be filled in parallel.
+  const std::unique_ptr<Result[]> results(new Result[cells]{});  // NOLINT(*-avoid-c-arrays)
   detail::run_rows(grid.rows(), settings, [&](std::size_t row) {
     Result* const first = results.get() + row * columns;
     for (std::size_t column = 0; column < columns; ++column) {

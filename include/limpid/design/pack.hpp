@@ -33,7 +33,7 @@ struct alignas(width * sizeof(Scalar)) Pack {
   static constexpr int lanes = width / registers;
   using Register [[gnu::vector_size(bytes)]] = Scalar;
 
-  Register parts[registers];
+  Register parts[registers];  // NOLINT(*-avoid-c-arrays): an aggregate of registers
 
   [[nodiscard]] static EIGEN_ALWAYS_INLINE Pack constant(const Scalar& value) {
     Pack result;
