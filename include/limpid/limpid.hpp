@@ -44,7 +44,9 @@
 
 #include <limpid/prediction/gain_table.hpp>
 #include <limpid/prediction/gains.hpp>
+#include <limpid/prediction/held_tangents.hpp>
 #include <limpid/prediction/hold_predictor.hpp>
+#include <limpid/prediction/knots.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
 

@@ -7,13 +7,12 @@
 #include <limpid/core/status.hpp>
 #include <limpid/environment/environment.hpp>
 #include <limpid/prediction/gains.hpp>
+#include <limpid/prediction/held_tangents.hpp>
+#include <limpid/prediction/knots.hpp>
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <string_view>
 #include <vector>
 
 namespace limpid {
@@ -35,8 +34,7 @@ class GainTable {
     std::vector<Scalar> damping_knots{};    ///< N s/m, two or more, rising
     std::vector<Row> L{};                   ///< at (stiffness i, damping j) entry i * dampings + j: N/m, N s/m
     /// Fastest change of rho in the design: N/(m s), N/m; > 0; infinite where it has no limit.
-    Rho rate = {Vector::Constant(std::numeric_limits<Scalar>::infinity()),
-                Vector::Constant(std::numeric_limits<Scalar>::infinity())};
+    Rho rate = Held::no_limit();
   };
 
   GainTable() : GainTable(no_feedback()) {}
@@ -45,34 +43,31 @@ class GainTable {
 
   /// @throws std::invalid_argument  where knots do not rise, L is not one finite row for each or a rate not positive
   void check() const {
-    check_side("GainTable: stiffness_knots", s_.stiffness_knots);
-    check_side("GainTable: damping_knots", s_.damping_knots);
+    detail::check_knots<Scalar>("GainTable: stiffness_knots", s_.stiffness_knots);
+    detail::check_knots<Scalar>("GainTable: damping_knots", s_.damping_knots);
     expect(s_.L.size() == s_.stiffness_knots.size() * s_.damping_knots.size(), "GainTable: L", "a row for each knot",
            s_.L.size());
     for (const Row& row : s_.L) expect(is_finite(row.L1) && is_finite(row.L2), "GainTable: L", "finite", row.L1);
-    expect((s_.rate.stiffness > Scalar{0}).all(), "GainTable: rate stiffness", "> 0", s_.rate.stiffness);
-    expect((s_.rate.damping > Scalar{0}).all(), "GainTable: rate damping", "> 0", s_.rate.damping);
+    Held::check_rate("GainTable", s_.rate);
   }
 
   /// Schedules by `rho`, `dt` seconds after the last time (the first time without limit of rate).
   /// @return  at_bound where the box or the rate held rho back
   Status update(const Scalar& dt, const Rho& rho) noexcept {
-    const bool stiffness_held = move(k_, rho.stiffness, s_.stiffness_knots, s_.rate.stiffness * dt);
-    const bool damping_held = move(b_, rho.damping, s_.damping_knots, s_.rate.damping * dt);
-    started_ = true;
+    const Side lower{s_.stiffness_knots.front(), s_.damping_knots.front()};
+    const Side upper{s_.stiffness_knots.back(), s_.damping_knots.back()};
+    const Status status = rho_.update(dt, rho, lower, upper, s_.rate);
     for (int axis = 0; axis < Axes; ++axis) interpolate(axis);
-    return when(stiffness_held || damping_held, Status::at_bound);
+    return status;
   }
 
   [[nodiscard]] const Row& row() const noexcept { return row_; }
 
  private:
-  using Vector = Eigen::Array<Scalar, Axes, 1>;
-  using Knots = std::vector<Scalar>;
+  using Held = detail::HeldTangents<Axes, Scalar>;
 
-  struct Place {
-    std::size_t cell;
-    Scalar part;  // of the cell, 0 to 1
+  struct Side {
+    const Scalar &stiffness, &damping;
   };
 
   static Settings no_feedback() {
@@ -81,31 +76,13 @@ class GainTable {
     none.L.resize(4);
     return none;
   }
-  static void check_side(std::string_view name, const Knots& knots) {
-    expect(knots.size() >= 2, name, "two or more", knots.size());
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-      expect(is_finite(knots[i]) && (i == 0 || knots[i - 1] < knots[i]), name, "finite and rising", knots[i]);
-    }
-  }
-
-  bool move(Vector& from, const Vector& to, const Knots& knots, const Vector& most) noexcept {
-    Vector target = to.max(knots.front()).min(knots.back());
-    if (started_) target = target.max(from - most).min(from + most);
-    from = target;
-    return (target != to).any();
-  }
-
-  static Place place(const Knots& knots, const Scalar& value) noexcept {
-    const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, value);
-    const auto cell = static_cast<std::size_t>(above - knots.begin()) - 1;
-    return {cell, (value - knots[cell]) / (knots[cell + 1] - knots[cell])};
-  }
 
   void interpolate(int axis) noexcept {
-    const Place k = place(s_.stiffness_knots, k_[axis]), b = place(s_.damping_knots, b_[axis]);
+    const auto k = detail::place_among<Scalar>(s_.stiffness_knots, rho_.stiffness()[axis]);
+    const auto b = detail::place_among<Scalar>(s_.damping_knots, rho_.damping()[axis]);
     const std::size_t width = s_.damping_knots.size(), first = k.cell * width + b.cell;
     const Scalar softer = Scalar{1} - k.part, looser = Scalar{1} - b.part;
-    const auto mean = [&](Vector Row::*entry) {
+    const auto mean = [&](auto Row::*entry) {
       const auto at = [&](std::size_t node) -> const Scalar& { return (s_.L[node].*entry)[axis]; };
       return softer * (looser * at(first) + b.part * at(first + 1)) +
              k.part * (looser * at(first + width) + b.part * at(first + width + 1));
@@ -116,8 +93,7 @@ class GainTable {
 
   Settings s_;
   Row row_{};
-  Vector k_ = Vector::Zero(), b_ = Vector::Zero();  // rho
-  bool started_ = false;
+  Held rho_{};
 };
 
 }  // namespace limpid

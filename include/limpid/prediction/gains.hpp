@@ -6,11 +6,11 @@
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/environment/environment.hpp>
+#include <limpid/prediction/held_tangents.hpp>
 
 #include <Eigen/Core>
 
 #include <concepts>
-#include <limits>
 #include <string_view>
 
 namespace limpid {
@@ -76,8 +76,7 @@ class ScheduledGain {
     Rho lower{};  ///< of the design's box: N/m >= lower.stiffness, N s/m >= lower.damping
     Rho upper{};  ///< of the design's box
     /// Fastest change of rho in the design: N/(m s), N/m; > 0; infinite where it has no limit.
-    Rho rate = {Vector::Constant(std::numeric_limits<Scalar>::infinity()),
-                Vector::Constant(std::numeric_limits<Scalar>::infinity())};
+    Rho rate = Held::no_limit();
   };
 
   ScheduledGain() : ScheduledGain(Settings{}) {}  ///< no feedback
@@ -90,41 +89,31 @@ class ScheduledGain {
     }
     check_box("ScheduledGain: lower, upper stiffness", s_.lower.stiffness, s_.upper.stiffness);
     check_box("ScheduledGain: lower, upper damping", s_.lower.damping, s_.upper.damping);
-    expect((s_.rate.stiffness > Scalar{0}).all(), "ScheduledGain: rate stiffness", "> 0", s_.rate.stiffness);
-    expect((s_.rate.damping > Scalar{0}).all(), "ScheduledGain: rate damping", "> 0", s_.rate.damping);
+    Held::check_rate("ScheduledGain", s_.rate);
   }
 
   /// Schedules by `rho`, `dt` seconds after the last time (the first time without limit of rate).
   /// @return  at_bound where the box or the rate held rho back
   Status update(const Scalar& dt, const Rho& rho) noexcept {
-    const bool stiffness_held = move(k_, rho.stiffness, s_.lower.stiffness, s_.upper.stiffness, s_.rate.stiffness * dt);
-    const bool damping_held = move(b_, rho.damping, s_.lower.damping, s_.upper.damping, s_.rate.damping * dt);
-    started_ = true;
-    row_.L1 = s_.L0.L1 + s_.L1.L1 * k_ + s_.L2.L1 * b_;
-    row_.L2 = s_.L0.L2 + s_.L1.L2 * k_ + s_.L2.L2 * b_;
-    return when(stiffness_held || damping_held, Status::at_bound);
+    const Status status = rho_.update(dt, rho, s_.lower, s_.upper, s_.rate);
+    row_.L1 = s_.L0.L1 + s_.L1.L1 * rho_.stiffness() + s_.L2.L1 * rho_.damping();
+    row_.L2 = s_.L0.L2 + s_.L1.L2 * rho_.stiffness() + s_.L2.L2 * rho_.damping();
+    return status;
   }
 
   [[nodiscard]] const Row& row() const noexcept { return row_; }
 
  private:
   using Vector = Eigen::Array<Scalar, Axes, 1>;
+  using Held = detail::HeldTangents<Axes, Scalar>;
 
   static void check_box(std::string_view name, const Vector& lower, const Vector& upper) {
     expect(is_finite(lower) && is_finite(upper) && (lower <= upper).all(), name, "finite and lower <= upper", lower);
   }
 
-  bool move(Vector& from, const Vector& to, const Vector& lower, const Vector& upper, const Vector& most) noexcept {
-    Vector target = to.max(lower).min(upper);
-    if (started_) target = target.max(from - most).min(from + most);
-    from = target;
-    return (target != to).any();
-  }
-
   Settings s_;
   Row row_{};
-  Vector k_ = Vector::Zero(), b_ = Vector::Zero();  // rho
-  bool started_ = false;
+  Held rho_{};
 };
 
 /// What a ModelPredictor asks of its gain: a row to apply and, where scheduled, an update by the tangent.
