@@ -45,8 +45,9 @@ class GainLmi {
   }
   [[nodiscard, gnu::noinline]] bool proves_feasible(const Variables& candidate) const {
     using B = Ball<Scalar>;
-    if (!proves_positive(candidate.Q) || !proves_positive(candidate.R)) {
-      return false;
+    if (!proves_positive(candidate.Q) || !proves_positive(candidate.R)) return false;
+    for (const auto& P : candidate.P) {
+      if (!is_symmetric(P)) return false;
     }
     const Matrix2<B> X = convert<B>(candidate.X), Q = convert<B>(candidate.Q), R = convert<B>(candidate.R);
     std::array<Matrix2<B>, static_cast<std::size_t>(terms)> parts;

@@ -138,7 +138,7 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] bool certifies_feasible(const LmiProblem<Scalar>& problem,
                                       const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& x, const Scalar& t) {
-  if (!is_finite(x) || !is_finite(t)) return false;
+  if (x.size() != problem.unknowns || !is_finite(x) || !is_finite(t)) return false;
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> radii = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>::Zero(x.size());
   if (problem.has_equation) radii = detail::distance_to_plane(problem, x);
   if (!is_finite(radii)) return false;

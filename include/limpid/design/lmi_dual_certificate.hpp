@@ -217,8 +217,9 @@ template <Real Scalar>
                                            bool with_objective = true) {
   constexpr Scalar none = std::numeric_limits<Scalar>::infinity();
   if (dual.Z.size() != problem.blocks.size() || !is_finite(dual.y)) return none;
-  for (const auto& Z : dual.Z) {
-    if (!is_finite(Z)) return none;
+  for (std::size_t j = 0; j < dual.Z.size(); ++j) {
+    const auto& Z = dual.Z[j];
+    if (Z.rows() != problem.blocks[j].size || Z.cols() != problem.blocks[j].size || !is_finite(Z)) return none;
   }
   // The second way is for multipliers of very different sizes.
   const Scalar bound = detail::upper_bound(problem, dual, with_objective, false);

@@ -105,19 +105,24 @@ void add(Square<S, n>& A, const Square<S, n>& B) {
   for (std::size_t i = 0; i < A.entries.size(); ++i) A.entries[i] = A.entries[i] + B.entries[i];
 }
 
-/// Of the lower triangle; a proof where true.
+/// A proof where true; of a matrix that is not symmetric to the last bit nothing is proved.
 template <typename S, int n>
 [[nodiscard, gnu::noinline]] bool proves_positive(const Square<S, n>& A,
                                                   const typename ExactScalar<S>::type& error_norm = {}) {
   Eigen::Matrix<S, n, n> copy;
   for (int i = 0; i < n; ++i) {
-    for (int j = 0; j <= i; ++j) copy(i, j) = copy(j, i) = A(i, j);
+    for (int j = 0; j < n; ++j) copy(i, j) = A(i, j);
   }
   return verified_positive_definite(copy, error_norm);
 }
 template <typename S>
 [[nodiscard]] bool proves_positive(const Matrix2<S>& A) {
   return proves_positive(square(A));
+}
+/// Certificates come from outside too: products that read one triangle or the other are sound only where they agree.
+template <Real Scalar>
+[[nodiscard]] bool is_symmetric(const Matrix2<Scalar>& A) {
+  return A.a12 == A.a21;
 }
 
 }  // namespace limpid::detail

@@ -46,6 +46,20 @@ struct ExactScalar<Ball<Scalar>> {
 template <typename Derived>
 using RoundedScalar = typename ExactScalar<typename Derived::Scalar>::type;
 
+/// Whether A is square and each entry is its mirror image; of balls, whether the two have a number in common.
+template <typename Derived>
+[[nodiscard]] bool is_symmetric(const Eigen::MatrixBase<Derived>& A) {
+  using std::abs;
+  if (A.rows() != A.cols()) return false;
+  for (Eigen::Index j = 0; j < A.cols(); ++j) {
+    for (Eigen::Index i = j + 1; i < A.rows(); ++i) {
+      const auto &x = A.derived()(i, j), &y = A.derived()(j, i);
+      if (!(abs(centre_of(x) - centre_of(y)) <= radius_of(x) + radius_of(y))) return false;
+    }
+  }
+  return true;
+}
+
 /// The centres in the lower triangle of a symmetric matrix.
 template <typename Derived>
 [[nodiscard]] auto lower_centres(const Eigen::MatrixBase<Derived>& A) {
@@ -111,19 +125,23 @@ template <typename Scalar, int n>
 /// Whether every symmetric matrix within `error_norm` of A, in spectral norm, is positive definite: a proof, with all
 /// rounding accounted for, where true. False says nothing.
 ///
-/// Of A only the lower triangle is read. In a matrix of balls every symmetric matrix of their numbers is meant.
+/// A that is not symmetric, to the last bit, is proved nothing of: take (A + A')/2. In a matrix of balls every
+/// symmetric matrix of their numbers is meant; where an entry and its mirror image have no number in common there is
+/// none.
+/// @param error_norm  >= 0; nothing is proved otherwise
 /// @realtime  no allocation for fixed sizes, no throw; n^3 / 3 flops
 template <typename Derived>
 [[nodiscard]] bool verified_positive_definite(const Eigen::MatrixBase<Derived>& A,
                                               const detail::RoundedScalar<Derived>& error_norm = {}) {
   using Scalar = detail::RoundedScalar<Derived>;
+  if (!detail::is_symmetric(A) || !(error_norm >= Scalar{0})) return false;
   auto centres = detail::lower_centres(A);
   const Scalar error = detail::radius_norm(A) + error_norm;
   return detail::cholesky_completes(centres, error + error * std::numeric_limits<Scalar>::epsilon());
 }
 
 /// A proven lower bound of the least eigenvalue of a symmetric matrix or matrix of balls, close to it in practice;
-/// -infinity where none was found.
+/// -infinity where none was found, where A is not symmetric (as above) and where it is empty.
 ///
 /// The eigenvalue is guessed, then shifted down until A less the guess is verified positive definite.
 /// @realtime  no allocation for fixed sizes, no throw
@@ -132,6 +150,7 @@ template <typename Derived>
   using Scalar = detail::RoundedScalar<Derived>;
   using Matrix = Eigen::Matrix<Scalar, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime>;
   const Scalar none = -std::numeric_limits<Scalar>::infinity();
+  if (A.size() == 0 || !detail::is_symmetric(A)) return none;
   const auto centres = detail::lower_centres(A);
   const Scalar error = detail::radius_norm(A);
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
