@@ -24,6 +24,20 @@ struct DelayCharacteristic {
     return Scalar{2} * s + beta - (l2 - delay * (l1 + l2 * s)) * lag(s);
   }
 
+  /// Of the time t/unit, s unit in place of s.
+  [[nodiscard]] DelayCharacteristic in_units_of(const Scalar& unit) const {
+    return {times(times(kappa, unit), unit), times(beta, unit), times(times(l1, unit), unit), times(l2, unit),
+            delay / unit};
+  }
+
+  /// A power of two, so that nothing is rounded, in which the largest coefficient is about one.
+  [[nodiscard]] Scalar time_unit() const {
+    using std::abs, std::ldexp, std::logb, std::max, std::sqrt;
+    const Scalar fastest = max<Scalar>(max<Scalar>(abs(beta), abs(l2)), sqrt(max<Scalar>(abs(kappa), abs(l1))));
+    if (!(fastest > Scalar{0}) || !is_finite(fastest)) return Scalar{1};
+    return ldexp(Scalar{1}, std::min(-static_cast<int>(logb(fastest)), std::numeric_limits<Scalar>::max_exponent - 2));
+  }
+
   /// f(s + abscissa), which has the same form.
   [[nodiscard]] DelayCharacteristic shifted(const Scalar& abscissa) const {
     using std::exp;
@@ -92,9 +106,10 @@ struct DelayCharacteristic {
     return false;
   }
 
-  /// The smallest delay with a root on or right of the imaginary axis.
+  /// The smallest delay with a root on or right of the imaginary axis; zero where that is not known.
   [[nodiscard]] Scalar margin() const {
     const Scalar none = std::numeric_limits<Scalar>::infinity();
+    if (!is_finite(discriminant())) return Scalar{0};
     if (right_without_delay() > 0 || !(beta > l2) || !(kappa > l1)) return Scalar{0};
     const Scalar omega = std::max<Scalar>(crossing_frequencies()[0], touching_frequency());
     return omega > Scalar{0} ? crossing_angle(omega) / omega : none;
@@ -111,8 +126,18 @@ struct DelayCharacteristic {
  private:
   // Omega^2 + 2 p Omega + q = 0, Omega = omega^2: p, q and p^2 - q
   [[nodiscard]] Scalar half_sum() const { return (beta - l2) * (beta + l2) / Scalar{2} - kappa; }
-  [[nodiscard]] Scalar product() const { return (kappa - l1) * (kappa + l1); }
-  [[nodiscard]] Scalar discriminant() const { return beta == l2 ? l1 * l1 : half_sum() * half_sum() - product(); }
+  [[nodiscard]] Scalar product() const { return times(kappa - l1, kappa + l1); }
+  [[nodiscard]] Scalar discriminant() const {
+    return beta == l2 ? times(l1, l1) : times(half_sum(), half_sum()) - product();
+  }
+
+  // NaN where digits of it are lost to underflow: nothing is known then.
+  [[nodiscard]] static Scalar times(const Scalar& x, const Scalar& y) {
+    using std::abs;
+    using Limits = std::numeric_limits<Scalar>;
+    const Scalar result = x * y;
+    return x == Scalar{0} || y == Scalar{0} || abs(result) >= Limits::min() ? result : Limits::quiet_NaN();
+  }
 
   // Where the two frequencies are one: a pair comes to the axis and goes back; zero where there is none.
   [[nodiscard]] Scalar touching_frequency() const {

@@ -164,7 +164,9 @@ template <Real Scalar>
 [[nodiscard]] int delay_roots_right_of(const DelaySystem<Scalar>& system, const Tissue<Scalar>& tissue,
                                        const Gain<Scalar>& L, const Scalar& abscissa) {
   expect(is_finite(abscissa), "delay_roots_right_of: abscissa", "finite", abscissa);
-  return detail::characteristic_of(system, tissue, L).roots_right_of(abscissa);
+  const auto f = detail::characteristic_of(system, tissue, L);
+  const Scalar unit = f.time_unit();
+  return f.in_units_of(unit).roots_right_of(abscissa * unit);
 }
 
 /// Whether every root has a negative real part; no where one is on the axis to within rounding, or the numbers are too
@@ -172,7 +174,8 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] bool delay_stable(const DelaySystem<Scalar>& system, const Tissue<Scalar>& tissue,
                                 const Gain<Scalar>& L) {
-  const auto f = detail::characteristic_of(system, tissue, L);
+  const auto given = detail::characteristic_of(system, tissue, L);
+  const auto f = given.in_units_of(given.time_unit());
   return f.roots_right_of(Scalar{0}) == 0 && !f.has_root_on_axis();
 }
 
@@ -185,15 +188,19 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] std::complex<Scalar> rightmost_delay_root(const DelaySystem<Scalar>& system, const Tissue<Scalar>& tissue,
                                                         const Gain<Scalar>& L) {
-  return detail::RightmostRoot<Scalar>(detail::characteristic_of(system, tissue, L)).find();
+  const auto f = detail::characteristic_of(system, tissue, L);
+  const Scalar unit = f.time_unit();
+  return detail::RightmostRoot<Scalar>(f.in_units_of(unit)).find() / unit;
 }
 
-/// The smallest delay with which the error is not stable, s: zero where it is not even without delay, infinite where no
-/// delay makes it so.
+/// The smallest delay with which the error is not stable, s: zero where it is not even without delay, or the numbers
+/// are too large or too different to tell, infinite where no delay makes it so.
 /// @throws std::invalid_argument  where an argument is not finite or the tool refused
 template <Real Scalar>
 [[nodiscard]] Scalar delay_margin(const Tool<1, Scalar>& tool, const Tissue<Scalar>& tissue, const Gain<Scalar>& L) {
-  return detail::characteristic_of(DelaySystem<Scalar>{tool, Scalar{0}}, tissue, L).margin();
+  const auto f = detail::characteristic_of(DelaySystem<Scalar>{tool, Scalar{0}}, tissue, L);
+  const Scalar unit = f.time_unit();
+  return f.in_units_of(unit).margin() * unit;
 }
 
 }  // namespace limpid
