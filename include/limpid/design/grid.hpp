@@ -30,9 +30,9 @@ struct GridSide {
     expect(-tolerance <= miss && miss <= tolerance, "GridSide: step", "one that leads from first to last", step);
   }
 
-  /// How many values; 0 where `check` would throw for the order of the ends or the step.
+  /// How many values; 0 where `check` would throw for the order of the ends, the step or their number.
   [[nodiscard]] std::size_t size() const {
-    if (!(step > Scalar{0}) || !(first <= last)) return 0;
+    if (!(step > Scalar{0}) || !(first <= last) || !((last - first) / step < Scalar(most))) return 0;
     return static_cast<std::size_t>(nearest((last - first) / step)) + 1;
   }
 
@@ -57,10 +57,13 @@ struct Grid {
   GridSide<Scalar> stiffness{};  ///< N/m
   GridSide<Scalar> damping{};    ///< N s/m
 
-  /// @throws std::invalid_argument  where a side is refused
+  static constexpr std::size_t most = 100'000'000;  ///< cells
+
+  /// @throws std::invalid_argument  where a side is refused, or there are more than `most` cells
   void check() const {
     stiffness.check();
     damping.check();
+    expect(size() <= most, "Grid: cells", "a hundred million or fewer", size());
   }
 
   [[nodiscard]] std::size_t rows() const { return stiffness.size(); }

@@ -13,7 +13,7 @@ namespace limpid {
 template <Real Scalar = double>
 struct LargestBoxSettings {
   Scalar most{1};                                ///< largest scale tried, > 0
-  Scalar tolerance = Scalar{1} / Scalar{1'000};  ///< between the two scales, > 0
+  Scalar tolerance = Scalar{1} / Scalar{1'000};  ///< between the two scales, > 0; at least that of rounding is meant
 
   /// @throws std::invalid_argument  where a field cannot be used
   void check() const {
@@ -68,7 +68,8 @@ requires std::convertible_to < std::invoke_result_t < Decide, const TissueBox<Sc
   if (try_scale(settings.most)) return largest;
   Scalar above = settings.most;
   while (above - largest.scale > settings.tolerance) {
-    const Scalar middle = (largest.scale + above) / Scalar{2};
+    const Scalar middle = largest.scale + (above - largest.scale) / Scalar{2};
+    if (!(largest.scale < middle && middle < above)) break;
     if (!try_scale(middle)) above = middle;
   }
   return largest;

@@ -39,9 +39,12 @@ class Lmi {
   Lmi& operator=(const Lmi&) = delete;
   ~Lmi() = default;
 
+  static constexpr int most_unknowns = 10'000;
+
   /// An unknown n x n matrix, equal to its transpose.
+  /// @throws std::invalid_argument  where n is not > 0, or there would be more than `most_unknowns`
   [[nodiscard]] Expression symmetric(std::string name, int n) {
-    int unknown = begin(std::move(name), n, n, n * (n + 1) / 2);
+    int unknown = begin(std::move(name), n, n, Count{n} * (Count{n} + 1) / 2);
     Expression P(names_, n, n);
     for (int j = 0; j < n; ++j) {
       for (int i = j; i < n; ++i, ++unknown) {
@@ -54,7 +57,7 @@ class Lmi {
 
   /// An unknown matrix of any shape.
   [[nodiscard]] Expression full(std::string name, int rows, int columns) {
-    int unknown = begin(std::move(name), rows, columns, rows * columns);
+    int unknown = begin(std::move(name), rows, columns, Count{rows} * Count{columns});
     Expression X(names_, rows, columns);
     for (int j = 0; j < columns; ++j) {
       for (int i = 0; i < rows; ++i) X.add(unknown++, i, j, one());
@@ -65,11 +68,15 @@ class Lmi {
   /// An unknown number.
   [[nodiscard]] Expression scalar(std::string name) { return full(std::move(name), 1, 1); }
 
-  /// @throws std::invalid_argument  where the matrix is not symmetric, or of another Lmi's variables
+  /// @throws std::invalid_argument  where the matrix is empty or not symmetric, or of another Lmi's variables
   void require(const LmiInequality<Scalar>& inequality) {
     own(inequality.expression);
     inequality.expression.expect_shape("inequality", inequality.expression.rows(), inequality.expression.rows(),
                                        inequality.expression);
+    if (inequality.expression.rows() == 0) {
+      throw std::invalid_argument("Lmi: inequality: expected rows and columns > 0, got " +
+                                  inequality.expression.describe());
+    }
     problem_.blocks.push_back({inequality.expression.rows(), detail::lower_triangle(inequality.expression)});
   }
 
@@ -115,14 +122,21 @@ class Lmi {
  private:
   static Ball<Scalar> one() { return Ball<Scalar>(Scalar{1}); }
 
-  int begin(std::string name, int rows, int columns, int count) {
+  using Count = long long;  // of products of two numbers of rows
+
+  int begin(std::string name, int rows, int columns, Count count) {
     if (rows <= 0 || columns <= 0) {
       throw std::invalid_argument("Lmi: " + name + ": expected rows and columns > 0, got " +
                                   Expression::shape(rows, columns));
     }
     const int first = names_->unknowns;
-    names_->variables.push_back({std::move(name), first, count});
-    problem_.unknowns = names_->unknowns += count;
+    if (count > most_unknowns - first) {
+      throw std::invalid_argument("Lmi: " + name + ": expected at most " + std::to_string(most_unknowns) +
+                                  " unknowns in all, got " + Expression::shape(rows, columns) + " after " +
+                                  std::to_string(first));
+    }
+    names_->variables.push_back({std::move(name), first, static_cast<int>(count)});
+    problem_.unknowns = names_->unknowns += static_cast<int>(count);
     return first;
   }
 

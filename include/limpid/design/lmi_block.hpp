@@ -13,7 +13,7 @@
 
 namespace limpid {
 
-/// Rows of blocks, as a paper writes them; a plain 0 fills its place.
+/// Rows of blocks, as a paper writes them; a plain 0 fills its place, and a row of such zeros is one high.
 template <Real Scalar>
 using LmiRows = std::initializer_list<std::initializer_list<LmiExpression<std::type_identity_t<Scalar>>>>;
 
@@ -29,9 +29,11 @@ struct BlockPlaces {
   std::vector<int> rows, columns;
 };
 
+inline constexpr int open_size = -1;  // of a block row or column in which nothing but plain zeros has come yet
+
 template <Real Scalar>
 void settle(int& size, int entry, const char* what, std::size_t i, std::size_t j, const LmiExpression<Scalar>& got) {
-  if (size == 0) size = entry;
+  if (size == open_size) size = entry;
   if (size == entry) return;
   throw std::invalid_argument("Lmi: block: expected " + std::to_string(size) + " " + what + " in block row " +
                               std::to_string(i + 1) + " and column " + std::to_string(j + 1) + ", got " +
@@ -40,14 +42,14 @@ void settle(int& size, int entry, const char* what, std::size_t i, std::size_t j
 
 inline std::vector<int> ends(const std::vector<int>& sizes) {
   std::vector<int> places{0};
-  for (const int size : sizes) places.push_back(places.back() + std::max(size, 1));  // a row of zeros is one high
+  for (const int size : sizes) places.push_back(places.back() + (size == open_size ? 1 : size));
   return places;
 }
 
 /// @param symmetric  whether row i and column i are one size
 template <Real Scalar>
 [[nodiscard]] BlockPlaces places(const LmiRows<Scalar>& rows, std::size_t width, bool symmetric) {
-  std::vector<int> heights(rows.size(), 0), widths(width, 0);
+  std::vector<int> heights(rows.size(), open_size), widths(width, open_size);
   std::size_t i = 0;
   for (const auto& row : rows) {
     std::size_t j = 0;

@@ -81,8 +81,13 @@ class LmiExpression {
     }
   }
 
+  /// 0 of a shape.
+  /// @throws std::invalid_argument  where there are fewer than 0 rows or columns
   LmiExpression(std::shared_ptr<const LmiNames> names, int rows, int columns)
-      : names_{std::move(names)}, rows_{rows}, columns_{columns} {}
+      : names_{std::move(names)}, rows_{rows}, columns_{columns} {
+    if (rows >= 0 && columns >= 0) return;
+    throw std::invalid_argument("Lmi: expected rows and columns >= 0, got " + shape(rows, columns));
+  }
 
   [[nodiscard]] int rows() const noexcept { return rows_; }
   [[nodiscard]] int columns() const noexcept { return columns_; }
@@ -106,15 +111,19 @@ class LmiExpression {
   }
 
   /// Adds one term; zero factors are left out.
-  /// @throws std::invalid_argument  where the factor is not finite
+  /// @throws std::invalid_argument  where the factor is not finite, the place outside or the unknown none of its Lmi's
   void add(int unknown, int row, int column, const Factor& factor) {
+    expect(unknown >= constant && unknown < (names_ ? names_->unknowns : 0), "Lmi: unknown", "one of its Lmi", unknown);
+    expect_place(row, column, 1, 1);
     if (is_exactly(factor, 0)) return;
     if (!is_finite(factor.centre()) || !factor.bounded()) refuse(unknown, factor);
     terms_.push_back({unknown, row, column, factor});
   }
 
-  /// Adds `part` with its first entry at (row, column); it must fit.
+  /// Adds `part` with its first entry at (row, column).
+  /// @throws std::invalid_argument  where it does not fit
   void add(const LmiExpression& part, int row, int column) {
+    expect_place(row, column, part.rows_, part.columns_);
     join(part);
     for (const Term& term : part.terms_)
       terms_.push_back({term.unknown, row + term.row, column + term.column, term.factor});
@@ -208,6 +217,12 @@ class LmiExpression {
   }
 
  private:
+  void expect_place(int row, int column, int rows, int columns) const {
+    if (row >= 0 && column >= 0 && rows <= rows_ - row && columns <= columns_ - column) return;
+    throw std::invalid_argument("Lmi: expected a place inside " + shape(rows_, columns_) + ", got " +
+                                shape(rows, columns) + " at (" + std::to_string(row) + ", " + std::to_string(column) +
+                                ")");
+  }
   static bool is_exactly(const Factor& factor, int value) {
     return factor.centre() == Scalar(value) && factor.radius() == Scalar{0};
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/expect.hpp>
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/lmi_dual_certificate.hpp>
 #include <limpid/design/lmi_expression.hpp>
@@ -27,9 +28,10 @@ struct LmiResult {
   Scalar margin = std::numeric_limits<Scalar>::quiet_NaN();
   /// Of the largest margin, where that was asked for; proved; infinite where no bound was.
   Scalar margin_bound = std::numeric_limits<Scalar>::infinity();
-  /// The objective at the values, and what no solution exceeds (for minimise: falls below); proved; infinite where no
-  /// bound was.
+  /// The objective at the values. That these are a solution is proved, so that the best is no worse; the number itself
+  /// is evaluated in Scalar, and rounded.
   Scalar objective = std::numeric_limits<Scalar>::quiet_NaN();
+  /// What no solution exceeds (for minimise: falls below); proved; infinite where no bound was.
   Scalar objective_bound = std::numeric_limits<Scalar>::quiet_NaN();
 
   Vector unknowns;                       ///< where feasible: the certificate; empty otherwise
@@ -39,12 +41,15 @@ struct LmiResult {
   [[nodiscard]] bool infeasible() const noexcept { return verdict == Verdict::infeasible; }
 
   /// The value of a variable, or of anything made of variables; NaN where there are no values.
+  /// @throws std::invalid_argument  where a variable was not yet there when the Lmi was solved
   [[nodiscard]] Matrix operator[](const LmiExpression<Scalar>& expression) const {
     Matrix value = Matrix::Zero(expression.rows(), expression.columns());
     if (unknowns.size() == 0) value.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
     if (unknowns.size() == 0) return value;
     for (const auto& term : expression.terms()) {
       const bool constant = term.unknown == LmiExpression<Scalar>::constant;
+      expect(constant || term.unknown < unknowns.size(), "LmiResult: expression", "of the Lmi as it was solved",
+             term.unknown);
       value(term.row, term.column) += term.factor.centre() * (constant ? Scalar{1} : unknowns[term.unknown]);
     }
     return value;

@@ -25,7 +25,7 @@
 namespace limpid {
 
 struct MapSettings {
-  int threads = 0;  ///< that work at once, the caller's among them; 0: as many as the machine has
+  int threads = 0;  ///< that work at once, the caller's among them, at most 1024; 0: as many as the machine has
   /// Told the fraction of the cells that are done after each row, from one thread at a time; may be empty.
   std::function<void(double)> progress{};
 };
@@ -129,7 +129,7 @@ requires std::default_initializable<Result> && std::invocable < Test&, const Tis
 &, const Result* > [[nodiscard]] GridMap<Result, Scalar> map(const Grid<Scalar>& grid, Test&& test,
                                                              const MapSettings& settings = {}) {
   grid.check();
-  expect(settings.threads >= 0, "MapSettings: threads", ">= 0", settings.threads);
+  expect(settings.threads >= 0 && settings.threads <= 1024, "MapSettings: threads", "0 to 1024", settings.threads);
   const std::size_t columns = grid.columns(), cells = grid.size();
   // No vector: vector<bool> cannot be filled in parallel.
   const std::unique_ptr<Result[]> results(new Result[cells]{});  // NOLINT(*-avoid-c-arrays)
