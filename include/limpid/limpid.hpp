@@ -54,6 +54,7 @@
 #include <limpid/design/ball.hpp>
 #include <limpid/design/block_group.hpp>
 #include <limpid/design/block_matrix.hpp>
+#include <limpid/design/cell_proof.hpp>
 #include <limpid/design/coefficient_product.hpp>
 #include <limpid/design/common_quadratic.hpp>
 #include <limpid/design/convex_polygon.hpp>
@@ -92,6 +93,7 @@
 #include <limpid/design/printed_theorems.hpp>
 #include <limpid/design/reduced_lmi.hpp>
 #include <limpid/design/reduced_theorem.hpp>
+#include <limpid/design/root_radius.hpp>
 #include <limpid/design/sampled_gain.hpp>
 #include <limpid/design/sampled_polynomial.hpp>
 #include <limpid/design/sampled_proof.hpp>

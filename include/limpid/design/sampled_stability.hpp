@@ -5,6 +5,7 @@
 #include <limpid/core/real.hpp>
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/largest_root.hpp>
+#include <limpid/design/root_radius.hpp>
 #include <limpid/design/sampled_polynomial.hpp>
 #include <limpid/design/second_order_flow.hpp>
 
@@ -52,20 +53,21 @@ class SampledStability {
   [[nodiscard]] Scalar radius(const Tissue<Scalar>& tissue, const Gain<Scalar>& L) const {
     if (periods_ == 1 && !(fraction_ > Scalar{0})) {
       const auto [a, b, c] = cubic(tissue, L);
-      return is_finite(a + b + c) ? detail::largest_root_magnitude(a, b, c) : std::numeric_limits<Scalar>::infinity();
+      return is_finite(a + b + c) ? infinite_unless_told(detail::largest_root_magnitude(a, b, c)) : too_large();
     }
     const auto p = polynomial(tissue, L);
-    if (!is_finite(p)) return std::numeric_limits<Scalar>::infinity();
-    if (p.size() == 3) return detail::largest_root_magnitude(p[1], p[0]);
-    if (p.size() == 4) return detail::largest_root_magnitude(p[2], p[1], p[0]);
-    return radius_by_conditions(p);
+    if (!is_finite(p)) return too_large();
+    if (p.size() == 3) return infinite_unless_told(detail::largest_root_magnitude(p[1], p[0]));
+    if (p.size() == 4) return infinite_unless_told(detail::largest_root_magnitude(p[2], p[1], p[0]));
+    return detail::root_radius(p);
   }
 
-  /// Whether the radius is below `bound` > 0: by the conditions of Jury, which need no roots.
+  /// Whether the radius is below `bound`: by the conditions of Schur and Cohn, which need no roots. No where `bound` is
+  /// not above zero, or the numbers are too large to tell.
   [[nodiscard]] bool stable(const Tissue<Scalar>& tissue, const Gain<Scalar>& L,
                             const Scalar& bound = Scalar{1}) const noexcept {
     const auto p = polynomial(tissue, L);
-    return is_finite(p) && inside(p, bound);
+    return is_finite(p) && detail::roots_inside(p, bound);
   }
 
   /// Takes (e, then the forces L e of the newest sample but one back to the oldest that still acts) from one sample to
@@ -81,44 +83,9 @@ class SampledStability {
  private:
   using Coefficients = detail::SampledCoefficients<Scalar>;
 
-  // Whether all roots are smaller than `bound`.
-  [[nodiscard]] static bool inside(Coefficients p, const Scalar& bound) noexcept {
-    using std::abs;
-    Scalar scale{1};
-    for (Eigen::Index i = p.size() - 1; i >= 0; --i, scale /= bound) p[i] *= scale;
-    // (p(z) - k p*(z))/z is one degree lower, and has one root fewer inside where |k| < 1.
-    for (Eigen::Index N = p.size() - 1; N > 0; --N) {
-      const Scalar k = p[0] / p[N];
-      if (!(abs(k) < Scalar{1})) return false;
-      for (Eigen::Index i = 0; 2 * i <= N; ++i) {
-        const Scalar low = p[i], high = p[N - i];
-        p[i] = low - k * high;
-        p[N - i] = high - k * low;
-      }
-      for (Eigen::Index i = 0; i < N; ++i) p[i] = p[i + 1];
-    }
-    return true;
-  }
-
-  // The coefficient of z^(N-k) is the sum of (N over k) products of k roots; no root is larger than twice the largest
-  // k-th root of these coefficients (Fujiwara). Between the two the interval is halved.
-  [[nodiscard]] static Scalar radius_by_conditions(const Coefficients& p) noexcept {
-    using std::abs, std::pow;
-    const Eigen::Index N = p.size() - 1;
-    Scalar lower{0}, upper{0}, binomial{1};
-    for (Eigen::Index k = 1; k <= N; ++k) {
-      binomial *= Scalar(static_cast<int>(N + 1 - k)) / Scalar(static_cast<int>(k));
-      const Scalar size = abs(p[N - k]), part = Scalar{1} / Scalar(static_cast<int>(k));
-      if (!(size > Scalar{0})) continue;
-      lower = std::max<Scalar>(lower, pow(size / binomial, part));
-      upper = std::max<Scalar>(upper, Scalar{2} * pow(size, part));
-    }
-    while (upper - lower > Scalar{2} * std::numeric_limits<Scalar>::epsilon() * upper) {
-      const Scalar middle = lower + (upper - lower) / Scalar{2};
-      (inside(p, middle) ? upper : lower) = middle;
-    }
-    return upper;
-  }
+  static constexpr Scalar too_large() { return std::numeric_limits<Scalar>::infinity(); }
+  // The closed forms of roots may overflow where the coefficients do not.
+  static Scalar infinite_unless_told(const Scalar& radius) noexcept { return is_finite(radius) ? radius : too_large(); }
 
   struct Cubic {
     Scalar a, b, c;  // z^3 + a z^2 + b z + c

@@ -4,6 +4,7 @@
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
+#include <limpid/design/cell_proof.hpp>
 #include <limpid/design/common_quadratic.hpp>
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/sampled_proof.hpp>
@@ -13,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -56,16 +58,16 @@ class CommonQuadraticProof {
 
   /// The number of cells it took, or 0.
   [[nodiscard]] int run(const TissueBox<Scalar>& box, int most_cells) const {
-    std::vector<TissueBox<Scalar>> open{box};
+    std::vector<Cell<Scalar>> open{cell_of(box)};
     int cells = 0;
     while (!open.empty() && cells < most_cells) {
-      const TissueBox<Scalar> cell = open.back();
+      const Cell<Scalar> cell = open.back();
       open.pop_back();
       ++cells;
-      bool stiffness_first = true;
-      if (holds(cell, stiffness_first)) continue;
-      TissueBox<Scalar> low, high;
-      if (!halve(cell, stiffness_first, low, high)) return 0;
+      std::size_t side = 0;
+      if (holds(box_of(cell), side)) continue;
+      Cell<Scalar> low, high;
+      if (!halve(cell, side, low, high)) return 0;
       open.push_back(high);
       open.push_back(low);
     }
@@ -73,7 +75,7 @@ class CommonQuadraticProof {
   }
 
  private:
-  [[nodiscard]] bool holds(const TissueBox<Scalar>& cell, bool& stiffness_first) const {
+  [[nodiscard]] bool holds(const TissueBox<Scalar>& cell, std::size_t& side) const {
     const Forms M = enclosure_.monodromy(cell), MW = M.lazyProduct(V_), PMW = P_.lazyProduct(MW);
     const Forms F = MW.transpose().lazyProduct(PMW);
     Numbers range(F.rows(), F.cols());
@@ -85,7 +87,7 @@ class CommonQuadraticProof {
         slope2 += F(i, j).slope2().magnitude();
       }
     }
-    stiffness_first = slope1 > slope2;
+    side = slope1 > slope2 ? 0 : 1;
     return verified_positive_definite(range);
   }
 
@@ -110,10 +112,11 @@ template <Real Scalar>
 [[nodiscard]] VaryingProof<Scalar> prove_varying_stability(const SampledSystem<Scalar>& system,
                                                            const TissueBox<Scalar>& box, const Gain<Scalar>& L,
                                                            const Scalar& radius = Scalar{1}, int most_cells = 20'000) {
-  VaryingProof<Scalar> result;
-  const SampledProof<Scalar> constant = prove_sampled_stability(system, box, L, radius, most_cells);
+  system.check();
   expect(system.degree() <= detail::CommonQuadraticSearch<Scalar>::most, "prove_varying_stability: delay",
          "of at most 4 periods", system.delay);
+  VaryingProof<Scalar> result;
+  const SampledProof<Scalar> constant = prove_sampled_stability(system, box, L, radius, most_cells);
   if (constant.verdict != Verdict::feasible) {
     result.verdict = constant.verdict;
     result.cells = constant.cells;
