@@ -217,8 +217,8 @@ class GainSearch {
   SampledStability<Scalar> stability_;
   TissueBox<Scalar> box_;
   bool convex_;
-  Eigen::Matrix<Scalar, 2, 2> slopes_;
-  Point reference_;
+  Eigen::Matrix<Scalar, 2, 2> slopes_ = Eigen::Matrix<Scalar, 2, 2>::Zero();  // as where L moves nothing
+  Point reference_ = Point::Zero();
   Scalar trace_{0}, independence_{-1};
   int degree_{0};
   Gain<Scalar> L_ = Gain<Scalar>::Zero();
@@ -246,7 +246,8 @@ template <Real Scalar>
   return {L, stability.radius(tissue, L)};
 }
 
-/// The gain of smallest worst spectral radius over a box of constant tissues, and the proof of that radius.
+/// The gain of smallest worst spectral radius over a box of constant tissues, and the proof of that radius. It is never
+/// worse than no gain: by the proved radii, or where neither is proved by the worst ones found.
 ///
 /// Where the delay is a period, or none, the worst radius is quasiconvex in L and this is the global minimum, to the
 /// accuracy with which multiple roots can be told; for other delays a local one.
@@ -260,6 +261,17 @@ template <Real Scalar>
   RobustSampledGain<Scalar> result;
   result.gain = detail::GainSearch<Scalar>(system, box).run();
   result.worst = worst_sampled_radius(system, box, result.gain);
+  // The search looks at chosen tissues: in a very wide box the proof finds worse ones that it missed.
+  const Gain<Scalar> none = Gain<Scalar>::Zero();
+  const SampledStability<Scalar> stability(system);
+  if (!(result.worst.proved <= detail::WorstTissueSearch<Scalar>(stability, box, none).run().found)) {
+    const WorstRadius<Scalar> without = worst_sampled_radius(system, box, none);
+    const bool same = without.proved == result.worst.proved;
+    if (same ? without.found < result.worst.found : without.proved < result.worst.proved) {
+      result.gain = none;
+      result.worst = without;
+    }
+  }
   result.worst_radius = result.worst.proved;
   return result;
 }
