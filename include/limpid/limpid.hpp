@@ -62,6 +62,8 @@
 #include <limpid/design/delay_collocation.hpp>
 #include <limpid/design/delay_stability.hpp>
 #include <limpid/design/design_point.hpp>
+#include <limpid/design/dynamic_block.hpp>
+#include <limpid/design/dynamic_group.hpp>
 #include <limpid/design/fixed_gain_lmi.hpp>
 #include <limpid/design/gain_choice.hpp>
 #include <limpid/design/gain_dual.hpp>
@@ -70,6 +72,7 @@
 #include <limpid/design/gain_vertices.hpp>
 #include <limpid/design/grid.hpp>
 #include <limpid/design/interior_point.hpp>
+#include <limpid/design/lanczos_reach.hpp>
 #include <limpid/design/largest_box.hpp>
 #include <limpid/design/largest_certified_box.hpp>
 #include <limpid/design/largest_root.hpp>

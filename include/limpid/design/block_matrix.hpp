@@ -3,7 +3,6 @@
 
 #include <limpid/design/pack.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 /// Small symmetric matrices, several side by side: what the interior point method works on.
 namespace limpid::detail {
 
-/// n x n, each entry in all lanes; n is fixed here, of dynamic size it is Eigen's.
+/// n x n, each entry in all lanes.
 template <typename E, int n>
 struct FixedBlock {
   std::array<E, static_cast<std::size_t>(n) * n> entries;
@@ -29,19 +28,10 @@ struct FixedBlock {
 };
 
 template <typename E, int n>
-using Block =
-    std::conditional_t<n == Eigen::Dynamic, Eigen::Matrix<E, Eigen::Dynamic, Eigen::Dynamic>, FixedBlock<E, n>>;
-
-template <typename E, int n>
 void set_scaled_identity(FixedBlock<E, n>& A, const LaneScalar<E>& diagonal) {
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) A(i, j) = all_lanes<E>(i == j ? diagonal : LaneScalar<E>{0});
   }
-}
-template <typename Scalar>
-void set_scaled_identity(Eigen::Matrix<Scalar, -1, -1>& A, const Scalar& diagonal) {
-  A.setIdentity();
-  A *= diagonal;
 }
 
 /// A += scale B
@@ -49,21 +39,12 @@ template <typename E, int n>
 void add_scaled(FixedBlock<E, n>& A, const LaneScalar<E>& scale, const FixedBlock<E, n>& B) {
   for (std::size_t i = 0; i < A.entries.size(); ++i) A.entries[i] += B.entries[i] * scale;
 }
-template <typename Scalar>
-void add_scaled(Eigen::Matrix<Scalar, -1, -1>& A, const Scalar& scale, const Eigen::Matrix<Scalar, -1, -1>& B) {
-  A += scale * B;
-}
 
 /// A = own A + scale B
 template <typename E, int n>
 void scale_and_add(FixedBlock<E, n>& A, const LaneScalar<E>& own, const LaneScalar<E>& scale,
                    const FixedBlock<E, n>& B) {
   for (std::size_t i = 0; i < A.entries.size(); ++i) A.entries[i] = A.entries[i] * own + B.entries[i] * scale;
-}
-template <typename Scalar>
-void scale_and_add(Eigen::Matrix<Scalar, -1, -1>& A, const Scalar& own, const Scalar& scale,
-                   const Eigen::Matrix<Scalar, -1, -1>& B) {
-  A = own * A + scale * B;
 }
 
 /// C = A B
@@ -79,11 +60,6 @@ template <typename E, int n>
       C(i, j) = sum;
     }
   }
-}
-template <typename Scalar>
-void multiply(const Eigen::Matrix<Scalar, -1, -1>& A, const Eigen::Matrix<Scalar, -1, -1>& B,
-              Eigen::Matrix<Scalar, -1, -1>& C) {
-  C.noalias() = A * B;
 }
 
 /// C = (A B' + B A') / 2, for symmetric A
@@ -109,26 +85,16 @@ template <typename E, int n>
     }
   }
 }
-template <typename Scalar>
-void multiply_symmetrised(const Eigen::Matrix<Scalar, -1, -1>& A, const Eigen::Matrix<Scalar, -1, -1>& B,
-                          Eigen::Matrix<Scalar, -1, -1>& C) {
-  const Eigen::Matrix<Scalar, -1, -1> product = A * B.transpose();
-  C = (product + product.transpose()) / Scalar{2};
-}
 
 /// tr(A B) in each lane.
 template <typename BlockType>
 [[nodiscard]] EIGEN_ALWAYS_INLINE auto trace_of_product(const BlockType& A, const BlockType& B) {
   using E = std::remove_cvref_t<decltype(A(0, 0))>;
-  if constexpr (requires { A.array(); }) {
-    return E((A.array() * B.transpose().array()).sum());
-  } else {
-    E sum = A(0, 0) * B(0, 0);
-    for (int i = 0; i < A.rows(); ++i) {
-      for (int j = i == 0 ? 1 : 0; j < A.rows(); ++j) sum += A(i, j) * B(j, i);
-    }
-    return sum;
+  E sum = A(0, 0) * B(0, 0);
+  for (int i = 0; i < A.rows(); ++i) {
+    for (int j = i == 0 ? 1 : 0; j < A.rows(); ++j) sum += A(i, j) * B(j, i);
   }
+  return sum;
 }
 /// The same summed over the lanes.
 template <typename BlockType>
@@ -191,51 +157,6 @@ template <typename E, int n>
       inverse(j, i) = sum;
     }
   }
-  return true;
-}
-/// Largest block of dynamic size for which plain loops beat Eigen's blocked ones.
-inline constexpr Eigen::Index small_block = 16;
-
-/// By A = L D L' and K = L^-1: A^-1 = K' D^-1 K. Sums run along columns, so that none waits for the one before it.
-template <typename Scalar>
-[[nodiscard]] bool invert_small(const Eigen::Matrix<Scalar, -1, -1>& A, Eigen::Matrix<Scalar, -1, -1>& inverse) {
-  const Eigen::Index n = A.rows();
-  std::array<Scalar, static_cast<std::size_t>(small_block * small_block)> L, K;
-  std::array<Scalar, static_cast<std::size_t>(small_block)> reciprocal;
-  const auto at = [n](Eigen::Index i, Eigen::Index j) { return static_cast<std::size_t>(j * n + i); };
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = j; i < n; ++i) {
-      L[at(i, j)] = A(i, j);
-      K[at(i, j)] = Scalar{0};
-    }
-    K[at(j, j)] = Scalar{1};
-  }
-  for (Eigen::Index j = 0; j < n; ++j) {
-    if (!(L[at(j, j)] > Scalar{0})) return false;
-    const Scalar by_pivot = reciprocal[static_cast<std::size_t>(j)] = Scalar{1} / L[at(j, j)];
-    for (Eigen::Index k = j + 1; k < n; ++k) {
-      const Scalar multiple = L[at(k, j)] * by_pivot;
-      for (Eigen::Index i = k; i < n; ++i) L[at(i, k)] -= multiple * L[at(i, j)];
-      for (Eigen::Index c = 0; c <= j; ++c) K[at(k, c)] -= multiple * K[at(j, c)];
-    }
-  }
-  inverse.resize(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = j; i < n; ++i) {
-      Scalar sum{0};
-      for (Eigen::Index k = i; k < n; ++k) sum += K[at(k, i)] * K[at(k, j)] * reciprocal[static_cast<std::size_t>(k)];
-      inverse(i, j) = inverse(j, i) = sum;
-    }
-  }
-  return true;
-}
-template <typename Scalar>
-[[nodiscard]] bool invert(const Eigen::Matrix<Scalar, -1, -1>& A, Eigen::Matrix<Scalar, -1, -1>& inverse) {
-  if (A.rows() <= small_block) return invert_small(A, inverse);
-  const Eigen::LLT<Eigen::Matrix<Scalar, -1, -1>> factor(A);
-  if (factor.info() != Eigen::Success || !(factor.matrixLLT().diagonal().minCoeff() > Scalar{0})) return false;
-  inverse.setIdentity(A.rows(), A.rows());
-  factor.solveInPlace(inverse);
   return true;
 }
 

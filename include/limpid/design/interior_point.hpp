@@ -139,7 +139,7 @@ template <Real Scalar, typename Stop>
   problem.for_each_group(
       [&](const auto& group, auto& s) {
         group.apply(point.x, s, true);
-        largest = std::max<Scalar>(largest, s[0].cwiseAbs().rowwise().sum().maxCoeff());
+        largest = std::max<Scalar>(largest, s[0].entries().cwiseAbs().rowwise().sum().maxCoeff());
       },
       point.S);
   const Scalar weight = std::max<Scalar>(Scalar{1}, data.objective.cwiseAbs().maxCoeff());
@@ -154,7 +154,7 @@ template <Real Scalar, typename Stop>
   SdpResult<Scalar> result;
   const auto unwrap = [](const auto& blocks) {
     std::vector<typename SdpResult<Scalar>::Matrix> matrices;
-    for (const auto& block : blocks) matrices.push_back(block[0]);
+    for (const auto& block : blocks) matrices.push_back(block[0].matrix());
     return matrices;
   };
   result.status =

@@ -30,17 +30,15 @@ struct NextScalar<double> {
 template <Real Scalar>
 using Wider = typename NextScalar<Scalar>::type;
 
-/// Whether several fill a register: such problems are of fixed size, solved side by side and without allocation. Others
-/// are asked seldom, where rounding left a question open, and share one solver of dynamic size.
-template <Real Scalar>
-inline constexpr bool fills_lanes = std::same_as<Scalar, double> || std::same_as<Scalar, float>;
-
 /// Whether there is an x with F(x) = sum x_i F_i > 0, asked as
 ///
 ///     max t  with  F(x) >= t I,  tr F(x) = n;      its dual  min n lambda  with  <F_i, Z> = lambda tr F_i,  tr Z = 1
 ///
 /// n being the order of F. t > 0 answers yes; lambda < 0 no, as Z + |lambda| I > 0 then annihilates every F_i. Both
 /// have a strictly feasible start: any x with that trace and t low enough; Z = I/n, lambda = 1/n.
+///
+/// Of scalars that fill registers such problems are of fixed size, solved side by side and without allocation. Others
+/// are asked seldom, where rounding left a question open, and share one solver of dynamic size.
 ///
 /// The blocks are of `order` and of `small_order`; `width` of them fill the lanes of a pack, the first ones again where
 /// the last pack has room. `packs` is Eigen::Dynamic where their number is known at run time only: then it allocates.

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -74,6 +75,10 @@ struct alignas(width * sizeof(Scalar)) Pack {
 /// One entry of `width` matrices side by side, or of one.
 template <Real Scalar, int width>
 using Entry = std::conditional_t<width == 1, Scalar, Pack<Scalar, width == 1 ? 2 : width>>;
+
+/// Whether several fill a register.
+template <Real Scalar>
+inline constexpr bool fills_lanes = std::same_as<Scalar, double> || std::same_as<Scalar, float>;
 
 template <typename E>
 struct LaneTraits {

@@ -50,7 +50,10 @@ class PrimalDualMethod {
         missing_{p_.make()},
         target_{p_.make()},
         scratch_{p_.make()} {
-    p_.for_each_group([&](const auto& group) { dimension_ += group.dimension(); });
+    p_.for_each_group([&](const auto& group) {
+      dimension_ += group.dimension();
+      by_lanczos_ = by_lanczos_ && group.size() <= small_block;
+    });
   }
 
   /// @param stop  called at each point: SdpStatus::optimal to go on, or the certificate that was reached
@@ -144,7 +147,8 @@ class PrimalDualMethod {
     solve(constant_right, dx, y_new);
     each([](auto& t) { set_scaled_identity(t, Scalar{0}); }, target_);
     set_direction(dx);
-    const Scalar sigma = centring(least_reach(GS_), least_reach(GZ_));
+    const int steps = by_lanczos_ ? 6 : 0;
+    const Scalar sigma = centring(least_reach(at_.S, GS_, steps), least_reach(at_.Z, GZ_, steps));
 
     // GS_ = S^-1 dS_a: sym(dZ_a dS_a S^-1) = sym(dZ_a GS_')
     const Scalar sigma_mu = sigma * mu_;
@@ -183,17 +187,21 @@ class PrimalDualMethod {
     const Scalar predicted = mu_ * Scalar(dimension_) + primal * inner(dS_, at_.Z) + dual * inner(at_.S, dZ_) +
                              primal * dual * inner(dS_, dZ_);
     const Scalar ratio = predicted / (mu_ * Scalar(dimension_));
-    return std::clamp<Scalar>(ratio * ratio * ratio, Scalar{1} / Scalar{1'000'000}, Scalar{9} / Scalar{10});
+    // From a lower bound of the reach the ratio comes out too large: the cube makes up for that.
+    const Scalar power = by_lanczos_ ? Scalar(ratio * ratio) : Scalar(ratio * ratio * ratio);
+    return std::clamp<Scalar>(power, Scalar{1} / Scalar{1'000'000}, Scalar{9} / Scalar{10});
   }
-  [[nodiscard]] Scalar least_reach(const Blocks& G) const {
+  // From G = A^-1 dA: a lower bound, or by some steps of Lanczos to a few per cent.
+  [[nodiscard]] Scalar least_reach(const Blocks& A, const Blocks& G, int lanczos_steps) const {
     Scalar least{1'000'000};
-    each([&](const auto& g) { least = std::min<Scalar>(least, laguerre_step(g)); }, G);
+    each([&](const auto& a, const auto& g) { least = std::min<Scalar>(least, reach_of(a, g, lanczos_steps)); }, A, G);
     return least;
   }
 
-  // How far A + alpha dA stays positive definite, to a few per cent, from below; `G` = A^-1 dA is overwritten.
+  // How far A + alpha dA stays positive definite, to a few per cent; `G` = A^-1 dA is overwritten.
   [[nodiscard]] Scalar reach(const Blocks& A, const Blocks& dA, Blocks& G) {
-    Scalar alpha = least_reach(G);
+    Scalar alpha = least_reach(A, G, by_lanczos_ ? 12 : 0);
+    const int refinements = by_lanczos_ ? 0 : 2;
     for (int refinement = 0; refinement < refinements && alpha < Scalar{1}; ++refinement) {
       const Scalar inside = alpha * Scalar{9} / Scalar{10};
       bool positive = true;
@@ -206,7 +214,7 @@ class PrimalDualMethod {
           },
           A, dA, G, scratch_);
       if (!positive) break;
-      alpha = inside + least_reach(G);
+      alpha = inside + least_reach(A, G, 0);
     }
     return alpha;
   }
@@ -263,8 +271,6 @@ class PrimalDualMethod {
     system_.solve(right, p_.C, RowVector(p_.d - p_.C * at_.x), dx, y, rounds);
   }
 
-  static constexpr int refinements = 2;
-
   const Problem& p_;
   Point& at_;
   Blocks S_inverse_, Z_inverse_, dS_, dZ_, GS_, GZ_;
@@ -273,7 +279,8 @@ class PrimalDualMethod {
   Blocks scratch_;
   typename Problem::System system_;
   int dimension_ = 0, iterations_ = 0;
-  bool slack_exact_ = false;  // S = F_0 + F(x)
+  bool by_lanczos_ = Problem::reach_by_lanczos;  // and all blocks are small: else some steps say too little
+  bool slack_exact_ = false;                     // S = F_0 + F(x)
   Scalar mu_{0}, gap_{0}, residual_{0}, primal_objective_{0}, dual_objective_{0};
 };
 

@@ -103,7 +103,7 @@ class ScaledLmi {
     sdp.for_each_group(
         [&](const auto& group, auto& S) {
           group.apply(at.x, S, true);
-          size = std::max<Scalar>(size, S[0].norm());
+          size = std::max<Scalar>(size, S[0].entries().norm());
         },
         at.S);
     if (!inside) {
@@ -128,7 +128,7 @@ class ScaledLmi {
     Scalar most{0};  // of what t I has to make up for
     for (std::size_t j = 0; j < scaling_.rows().size(); ++j) {
       const Scalar least = scaling_.rows()[j].minCoeff();
-      most = std::max<Scalar>(most, centre.S[j][0].norm() / (least * least));
+      most = std::max<Scalar>(most, centre.S[j][0].entries().norm() / (least * least));
     }
     x[t] = Scalar{-2} * most;
     return start(sdp, x, true);
@@ -145,7 +145,7 @@ class ScaledLmi {
   [[nodiscard]] LmiMultipliers<Scalar> multipliers(const Point& at) const {
     LmiMultipliers<Scalar> dual;
     for (std::size_t j = 0; j < scaling_.rows().size(); ++j) {
-      dual.Z.push_back(scaling_.unscale(j, at.Z[j][0]) / scaling_.objective());
+      dual.Z.push_back(scaling_.unscale(j, at.Z[j][0].matrix()) / scaling_.objective());
     }
     if (at.y.size() > 0) dual.y = -at.y[0] * scaling_.equation() / scaling_.objective();
     return dual;
@@ -158,7 +158,7 @@ class ScaledLmi {
     at.x.head(t) = trace_ * (Scalar(dimension_) / trace_.squaredNorm());
     Scalar least{0};
     sdp.for_each_group([&](const auto& group, auto& S) { group.apply(at.x, S, true); }, at.S);
-    for (const auto& S : at.S) least = std::min<Scalar>(least, -S[0].norm());
+    for (const auto& S : at.S) least = std::min<Scalar>(least, -S[0].entries().norm());
     at.x[t] = least - Scalar{1};
     sdp.for_each_group([&](const auto& group, auto& S) { group.apply(at.x, S, true); }, at.S);
     for (auto& Z : at.Z) set_scaled_identity(Z[0], Scalar{1} / Scalar(dimension_));
@@ -184,7 +184,7 @@ class ScaledLmi {
   [[nodiscard]] LmiMultipliers<Scalar> proof(const Point& at) const {
     LmiMultipliers<Scalar> dual;
     for (std::size_t j = 0; j < problem_.blocks.size(); ++j) {
-      Matrix Z = at.Z[j][0];
+      Matrix Z = at.Z[j][0].matrix();
       Z.diagonal().array() -= at.y[0];
       dual.Z.push_back(scaling_.unscale(j, Z));
     }

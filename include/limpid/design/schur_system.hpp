@@ -2,10 +2,12 @@
 #pragma once
 
 #include <limpid/core/real.hpp>
+#include <limpid/design/dynamic_block.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -117,47 +119,54 @@ class DynamicFactor {
  public:
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+  using Block = DynamicBlock<Scalar>;
 
   /// False where M, of which the lower triangle is read, is not positive definite beyond rounding. It is singular
   /// wherever a combination of the variables is what another does, as P = I is for F(x) - t I.
-  [[nodiscard]] bool compute(const Matrix& M) {
+  [[nodiscard]] bool compute(const Block& M) {
     small_ = M.rows() <= small;
     if (!small_) {
-      blocked_.compute(M);
+      blocked_.compute(M.matrix());
       return blocked_.info() == Eigen::Success;
     }
     L_ = M;
-    const Eigen::Index n = L_.rows();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      if (!(L_(j, j) > M(j, j) * least_pivot())) return false;
-      const Scalar reciprocal = Scalar{1} / L_(j, j);
-      for (Eigen::Index k = j + 1; k < n; ++k) {
-        L_.col(k).tail(n - k) -= (L_(k, j) * reciprocal) * L_.col(j).tail(n - k);
+    const int n = L_.rows(), parts = L_.parts();
+    reciprocal_.resize(L_.stride());
+    for (int j = 0; j < n; ++j) {
+      Scalar* const column = &L_(0, j);
+      if (!(column[j] > M(j, j) * least_pivot())) return false;
+      const Scalar by_pivot = reciprocal_[j] = Scalar{1} / column[j];
+      for (int k = j + 1; k < n; ++k) {
+        subtract_column<Scalar>(k / Block::lanes, parts, column, column[k] * by_pivot, &L_(0, k));
       }
-      L_.col(j).tail(n - j - 1) *= reciprocal;
-      L_(j, j) = reciprocal;  // 1/D
+      std::fill(column, column + j + 1, Scalar{0});
+      for (int i = j + 1; i < n; ++i) column[i] *= by_pivot;
     }
     return true;
   }
   /// M^-1 right
-  [[nodiscard]] Matrix solve(Matrix right) const {
+  [[nodiscard]] Vector solve(const Vector& right) const {
     if (!small_) return blocked_.solve(right);
-    for (Eigen::Index c = 0; c < right.cols(); ++c) substitute(right.col(c));
-    return right;
+    Vector solution = Vector::Zero(L_.stride());
+    solution.head(right.size()) = right;
+    substitute(solution);
+    solution.conservativeResize(right.size());
+    return solution;
   }
 
  private:
-  static constexpr Eigen::Index small = 48;
+  static constexpr int small = 48;
   static constexpr Scalar least_pivot() { return Scalar{8} * std::numeric_limits<Scalar>::epsilon(); }
 
-  void substitute(Eigen::Ref<Vector> b) const {
-    const Eigen::Index n = L_.rows();
-    for (Eigen::Index j = 0; j < n; ++j) b.tail(n - j - 1) -= b[j] * L_.col(j).tail(n - j - 1);
-    b.array() *= L_.diagonal().array();
-    for (Eigen::Index j = n; j-- > 0;) b[j] -= L_.col(j).tail(n - j - 1).dot(b.tail(n - j - 1));
+  void substitute(Vector& b) const {
+    const int n = L_.rows(), parts = L_.parts();
+    for (int j = 0; j < n; ++j) subtract_column<Scalar>(j / Block::lanes, parts, &L_(0, j), b[j], b.data());
+    for (int j = 0; j < n; ++j) b[j] *= reciprocal_[j];
+    for (int j = n; j-- > 0;) b[j] -= product_of_columns<Scalar>(j / Block::lanes, parts, &L_(0, j), b.data());
   }
 
-  Matrix L_;  // below the diagonal; on it 1/D
+  Block L_;            // below the diagonal; on and above it zeros
+  Vector reciprocal_;  // 1/D
   Eigen::LLT<Matrix> blocked_;
   bool small_ = false;
 };
@@ -169,23 +178,32 @@ class SchurSystem<Scalar, Eigen::Dynamic, Eigen::Dynamic> {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  void clear(Eigen::Index unknowns) { M_.setZero(unknowns, unknowns); }
+  void clear(Eigen::Index unknowns) {
+    if (M_.rows() != unknowns) M_ = DynamicBlock<Scalar>(static_cast<int>(unknowns));
+    M_.entries().setZero();
+  }
   [[nodiscard]] Scalar& operator()(int i, int j) { return M_(i, j); }
+  /// For who fills M in, at least that large.
+  [[nodiscard]] Scalar* workspace(int size) {
+    if (workspace_.size() < size) workspace_.resize(size);
+    return workspace_.data();
+  }
 
   [[nodiscard]] bool factorise(const Matrix& C) {
-    for (Eigen::Index i = 0; i < M_.rows(); ++i) {
+    for (int i = 0; i < M_.rows(); ++i) {
       if (M_(i, i) == Scalar{0}) M_(i, i) = Scalar{1};
     }
     Scalar shift = std::numeric_limits<Scalar>::epsilon();
     bool done = factor_.compute(M_);
     for (int attempt = 0; !done && attempt < 5; ++attempt, shift *= Scalar{256}) {
-      Matrix shifted = M_;  // the refinement is of M itself
-      shifted.diagonal() *= Scalar{1} + shift;
+      DynamicBlock<Scalar> shifted = M_;  // the refinement is of M itself
+      shifted.entries().diagonal() *= Scalar{1} + shift;
       done = factor_.compute(shifted);
     }
     if (!done) return false;
     if (C.rows() != 0) {
-      by_equations_ = factor_.solve(C.transpose());
+      by_equations_.resize(C.cols(), C.rows());
+      for (Eigen::Index e = 0; e < C.rows(); ++e) by_equations_.col(e) = factor_.solve(C.row(e));
       equations_.compute(C * by_equations_);
     }
     return true;
@@ -196,7 +214,8 @@ class SchurSystem<Scalar, Eigen::Dynamic, Eigen::Dynamic> {
     dx = Vector::Zero(right.size());
     y = Vector::Zero(C.rows());
     for (int round = 0; round < rounds; ++round) {
-      Vector rest = right - M_.template selfadjointView<Eigen::Lower>() * dx;
+      Vector rest = right;
+      if (round > 0) rest -= M_.matrix().template selfadjointView<Eigen::Lower>() * dx;
       if (C.rows() != 0) rest -= C.transpose() * y;
       Vector more = factor_.solve(rest);
       if (C.rows() != 0) {
@@ -209,7 +228,8 @@ class SchurSystem<Scalar, Eigen::Dynamic, Eigen::Dynamic> {
   }
 
  private:
-  Matrix M_;
+  DynamicBlock<Scalar> M_;
+  Vector workspace_;
   DynamicFactor<Scalar> factor_;
   Matrix by_equations_;           // M^-1 C'
   Eigen::LLT<Matrix> equations_;  // C M^-1 C'

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limpid/design/block_group.hpp>
+#include <limpid/design/dynamic_group.hpp>
+#include <limpid/design/lanczos_reach.hpp>
 #include <limpid/design/schur_system.hpp>
 
 #include <Eigen/Core>
@@ -58,6 +60,7 @@ struct Sdp {
   using RowVector = Eigen::Matrix<Scalar, rows, 1>;
   using System = SchurSystem<Scalar, variables, rows>;
   using Blocks = std::tuple<typename Groups::Blocks...>;
+  static constexpr bool reach_by_lanczos = false;  ///< else by Laguerre's steps, which do several blocks at once
 
   std::tuple<Groups...> groups{};
   Vector b{};
@@ -88,8 +91,9 @@ struct DynamicSdp {
   using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
   using RowVector = Vector;
   using System = SchurSystem<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-  using Group = BlockGroup<Scalar, Eigen::Dynamic, 1, 1, Eigen::Dynamic>;
+  using Group = DynamicGroup<Scalar>;
   using Blocks = std::vector<typename Group::Blocks>;
+  static constexpr bool reach_by_lanczos = true;  ///< where all blocks are small
 
   std::vector<Group> groups{};
   Vector b{};
