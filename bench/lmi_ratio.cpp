@@ -4,6 +4,7 @@
 #include "lmi_ratio/problems.hpp"
 #include "lmi_ratio/solvers.hpp"
 
+#include <design/palpation.hpp>
 #include <limpid/design/printed_theorem5.hpp>
 #include <limpid/design/printed_theorems.hpp>
 #include <limpid/design/theorem3.hpp>
@@ -24,6 +25,8 @@ namespace {
 
 using namespace limpid;
 using namespace limpid::bench;
+using limpid::test::design_at;
+using limpid::test::rates;
 
 /// Median over runs, after some that warm up.
 template <typename F>
@@ -96,18 +99,9 @@ void run(const Case& c, const std::vector<Solver>& solvers) {
   std::printf("\n");
 }
 
-PredictorDesign<double> design_at(double T_d, double k_t) {
-  PredictorDesign<double> design;
-  design.tool.mass = 0.1;
-  design.tool.damping = 0.1;
-  design.tool.stiffness = k_t;
-  design.T_d = T_d;
-  return design;
-}
-
 Case theorem3_case(const std::string& name, double T_d, const Tissue<double>& tissue,
                    const std::optional<Gain<double>>& L) {
-  const auto design = design_at(T_d, 1);
+  const auto design = design_at(T_d);
   const std::vector<Tissue<double>> tissues{tissue};
   const auto printed = std::make_shared<PrintedTheorem<double>>(
       printed_theorem3<double>(design, std::span<const Tissue<double>>(tissues), L));
@@ -128,7 +122,6 @@ Case theorem3_case(const std::string& name, double T_d, const Tissue<double>& ti
 Case theorem5_case(const std::string& name, double T_d, double size) {
   const auto design = design_at(T_d, 0);
   const TissueBox<double> box{{1100 - 900 * size, 30 - 10 * size}, {1100 + 900 * size, 30 + 10 * size}};
-  const TissueRates<double> rates{1.8e5, 2000};
   const auto printed = std::make_shared<PrintedTheorem5<double>>(printed_theorem5<double>(design, box, rates));
   Case c;
   c.name = "Theorem 5, " + name;
@@ -141,7 +134,7 @@ Case theorem5_case(const std::string& name, double T_d, double size) {
 
 /// All 399 cells of Table 6.4's map, each from nothing or trying its neighbour's certificate first.
 void map(double T_d, const Gain<double>& L) {
-  const auto design = design_at(T_d, 1);
+  const auto design = design_at(T_d);
   int feasible = 0, infeasible = 0;
   const auto sweep = [&](bool neighbours) {
     feasible = infeasible = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <design/palpation.hpp>
 #include <limpid/design/printed_theorem5.hpp>
 #include <limpid/design/printed_theorems.hpp>
 
@@ -14,13 +15,13 @@ namespace {
 using limpid::Gain;
 using limpid::Tissue;
 using limpid::Verdict;
+using limpid::test::box;
+using limpid::test::design_at;
+using limpid::test::rates;
 
-const limpid::PredictorDesign<> case2{.tool = {.mass = 0.1, .damping = 0.1, .stiffness = 1}, .T_d = 1 / 60.0};
-const limpid::PredictorDesign<> slow{.tool = {.mass = 0.1, .damping = 0.1, .stiffness = 1}, .T_d = 0.1};
+const limpid::PredictorDesign<> case2 = design_at(1 / 60.0), slow = design_at(0.1);
 const Tissue<> typical{2000, 25}, near{235, 30}, beyond{225, 30};  // the last two about Table 6.4's boundary at 0.1 s
 const Gain<> L2(-574.1, -7.260), L3(-195.1, -4.89);
-const limpid::TissueBox<> box{{200, 20}, {2000, 40}};
-const limpid::TissueRates<> rates{1.8e5, 2000};
 
 limpid::PrintedTheorem<double> theorem3(const limpid::PredictorDesign<>& design, const Tissue<>& tissue,
                                         const std::optional<Gain<>>& L) {
@@ -51,10 +52,7 @@ void solve(benchmark::State& state, const limpid::PredictorDesign<>& design, con
 }
 
 void solve_theorem5(benchmark::State& state, double T_d) {
-  limpid::PredictorDesign<> design = case2;
-  design.T_d = T_d;
-  design.tool.stiffness = 0;
-  const auto theorem = limpid::printed_theorem5<double>(design, box, rates);
+  const auto theorem = limpid::printed_theorem5<double>(design_at(T_d, 0), box, rates);
   limpid::LmiResult<> result;
   for (auto _ : state) {
     result = theorem.at_centre.lmi.solve();

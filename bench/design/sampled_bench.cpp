@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stability of the sampled and of the delayed error: maps, robust gains, proofs. Errors stand beside the times.
+#include <design/palpation.hpp>
 #include <limpid/design/delay_collocation.hpp>
 #include <limpid/design/delay_stability.hpp>
 #include <limpid/design/sampled_gain.hpp>
@@ -18,9 +19,9 @@
 namespace {
 
 using namespace limpid;
+using limpid::test::box;
+using limpid::test::tool;
 
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-const TissueBox<> box{{200, 20}, {2000, 40}};
 constexpr int side = 256;
 
 struct Design {

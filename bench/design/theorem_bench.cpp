@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <design/palpation.hpp>
 #include <limpid/design/theorem3.hpp>
 #include <limpid/design/theorem3_design.hpp>
 #include <limpid/design/theorem5.hpp>
@@ -10,15 +11,7 @@
 namespace {
 
 using namespace limpid;
-
-PredictorDesign<double> design_at(double T_d, double k_t) {
-  PredictorDesign<double> design;
-  design.tool.mass = 0.1;
-  design.tool.damping = 0.1;
-  design.tool.stiffness = k_t;
-  design.T_d = T_d;
-  return design;
-}
+using limpid::test::design_at;
 
 const Gain<double> gain_016{-441.3, -12.12}, gain_1{-195.1, -4.89};  // Table 6.4
 
@@ -29,7 +22,7 @@ void tell(benchmark::State& state, const Result& result) {
 }
 
 void verify_theorem3_at(benchmark::State& state, double T_d, const Gain<double>& L, const Tissue<double>& tissue) {
-  const auto design = design_at(T_d, 1);
+  const auto design = design_at(T_d);
   Theorem3Verdict<double> result;
   for (auto _ : state) benchmark::DoNotOptimize(result = verify_theorem3(design, tissue, L));
   tell(state, result);
@@ -39,7 +32,7 @@ BENCHMARK_CAPTURE(verify_theorem3_at, near_the_border, 0.1, gain_1, Tissue<doubl
 BENCHMARK_CAPTURE(verify_theorem3_at, infeasible, 0.1, gain_1, Tissue<double>{200, 40});
 
 void verify_theorem3_by_neighbour(benchmark::State& state) {
-  const auto design = design_at(0.016, 1);
+  const auto design = design_at(0.016);
   const auto known = verify_theorem3(design, Tissue<double>{1100, 30}, gain_016);
   Theorem3Verdict<double> result;
   for (auto _ : state) {
@@ -50,7 +43,7 @@ void verify_theorem3_by_neighbour(benchmark::State& state) {
 BENCHMARK(verify_theorem3_by_neighbour);
 
 void verify_theorem3_box(benchmark::State& state) {
-  const auto design = design_at(0.016, 1);
+  const auto design = design_at(0.016);
   const TissueBox<double> box{{1000, 28}, {1200, 32}};
   Theorem3Verdict<double, 4> result;
   for (auto _ : state) benchmark::DoNotOptimize(result = verify_theorem3(design, box, gain_016));
@@ -59,7 +52,7 @@ void verify_theorem3_box(benchmark::State& state) {
 BENCHMARK(verify_theorem3_box);
 
 void design_theorem3_at(benchmark::State& state, double T_d, const Tissue<double>& tissue) {
-  const auto design = design_at(T_d, 1);
+  const auto design = design_at(T_d);
   GainDesign<double> result;
   for (auto _ : state) benchmark::DoNotOptimize(result = design_theorem3(design, tissue));
   tell(state, result);
@@ -70,9 +63,8 @@ BENCHMARK_CAPTURE(design_theorem3_at, infeasible_by_its_slow_mode, 0.1, Tissue<d
 
 void design_theorem5_box(benchmark::State& state, double T_d) {
   const auto design = design_at(T_d, 0);
-  const TissueBox<double> box{{200, 20}, {2000, 40}};
   ScheduledGainDesign<double> result;
-  for (auto _ : state) benchmark::DoNotOptimize(result = design_theorem5(design, box, {1.8e5, 2000}));
+  for (auto _ : state) benchmark::DoNotOptimize(result = design_theorem5(design, test::box, test::rates));
   tell(state, result);
 }
 BENCHMARK_CAPTURE(design_theorem5_box, T_d_016, 0.016);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "solvers.hpp"
 
+#include <support/csdp_process.hpp>
+
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -10,7 +12,6 @@
 #include <vector>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #ifdef LIMPID_CSDP
 extern "C" {
@@ -22,25 +23,15 @@ namespace limpid::bench {
 
 namespace {
 
-/// An empty directory to work in, with CSDP told to print nothing; gone with it.
-class Scratch {
+/// A place to work in, where CSDP is told to print nothing.
+class Scratch : public test::ScratchFolder {
  public:
   Scratch() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "limpid_lmi_ratio_XXXXXX").string();
-    if (!mkdtemp(pattern.data())) std::abort();
-    path_ = pattern;
-    std::ofstream(path_ / "param.csdp")
+    std::ofstream(path() / "param.csdp")
         << "axtol=1.0e-8\natytol=1.0e-8\nobjtol=1.0e-8\npinftol=1.0e8\ndinftol=1.0e8\nmaxiter=100\nminstepfrac=0.90\n"
            "maxstepfrac=0.97\nminstepp=1.0e-8\nminstepd=1.0e-8\nusexzgap=1\ntweakgap=0\naffine=0\nprintlevel=0\n"
            "perturbobj=1\nfastmode=0\n";
   }
-  ~Scratch() { std::filesystem::remove_all(path_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
 };
 
 /// SDPA's sparse format: min c'x with sum x_i F_i - F_0 >= 0.
@@ -170,7 +161,7 @@ Solver csdp_library() {
 Solver csdp_process() {
   Solver solver;
   solver.name = "CSDP";
-  solver.present = std::system("command -v csdp > /dev/null 2>&1") == 0;
+  solver.present = test::has_csdp();
   solver.how = "as a process, its processor time less that for a problem of one number";
   solver.solve = [](const Data& data) {
     static const Scratch scratch;

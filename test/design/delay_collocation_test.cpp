@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/delay_cases.hpp"
+
 #include <limpid/design/delay_collocation.hpp>
 #include <limpid/design/delay_stability.hpp>
 
@@ -10,39 +12,17 @@
 
 using limpid::collocated_delay_roots;
 using limpid::delay_roots_right_of;
-using limpid::DelaySystem;
-using limpid::Gain;
 using limpid::rightmost_delay_root;
-using limpid::Tissue;
-using limpid::Tool;
-
-namespace {
-
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-
-struct Problem {
-  DelaySystem<double> system;
-  Tissue<double> tissue;
-  Gain<double> L;
-};
-
-Problem draw(std::mt19937& generator) {
-  const auto decade = [&](double middle) {
-    return middle * std::pow(10, std::uniform_real_distribution<double>(-1, 1)(generator));
-  };
-  const auto part = [&] { return std::uniform_real_distribution<double>(-1.5, 1.5)(generator); };
-  const Tissue<double> tissue{decade(500), decade(30)};
-  return {{tool, decade(0.02)}, tissue, {tissue.stiffness * part(), tissue.damping * part()}};
-}
-
-}  // namespace
+using limpid::test::DelayCase;
+using limpid::test::draw_delay_case;
+using limpid::test::tool;
 
 TEST_CASE("the rightmost root is the one that collocation finds, where that resolves it") {
   std::mt19937 generator(52);
   INFO("seed 52");
   int compared = 0;
   for (int i = 0; i < 150; ++i) {
-    const Problem p = draw(generator);
+    const DelayCase p = draw_delay_case(generator);
     const auto root = rightmost_delay_root(p.system, p.tissue, p.L);
     if (std::abs(root) * p.system.delay > 8) continue;
     const auto roots = collocated_delay_roots(p.system, p.tissue, p.L, 24);

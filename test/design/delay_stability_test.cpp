@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/delay_cases.hpp"
+
 #include <limpid/design/delay_stability.hpp>
 
 #include <doctest/doctest.h>
@@ -17,28 +19,14 @@ using limpid::Gain;
 using limpid::rightmost_delay_root;
 using limpid::Tissue;
 using limpid::Tool;
+using limpid::test::DelayCase;
+using limpid::test::draw_delay_case;
+using limpid::test::tool;
 
 namespace {
 
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-
-struct Problem {
-  DelaySystem<double> system;
-  Tissue<double> tissue;
-  Gain<double> L;
-};
-
-Problem draw(std::mt19937& generator) {
-  const auto decade = [&](double middle) {
-    return middle * std::pow(10, std::uniform_real_distribution<double>(-1, 1)(generator));
-  };
-  const auto part = [&] { return std::uniform_real_distribution<double>(-1.5, 1.5)(generator); };
-  const Tissue<double> tissue{decade(500), decade(30)};
-  return {{tool, decade(0.02)}, tissue, {tissue.stiffness * part(), tissue.damping * part()}};
-}
-
 // The characteristic equation and the sizes that were added up in it.
-double residual(const Problem& p, const std::complex<double>& s) {
+double residual(const DelayCase& p, const std::complex<double>& s) {
   const double m = tool.mass, b = tool.damping + p.tissue.damping, k = tool.stiffness + p.tissue.stiffness;
   const std::complex<double> lag = std::exp(-s * p.system.delay);
   const double size =
@@ -52,7 +40,7 @@ TEST_CASE("the rightmost root solves the equation, and nothing is to the right o
   std::mt19937 generator(51);
   INFO("seed 51");
   for (int i = 0; i < 3'000; ++i) {
-    const Problem p = draw(generator);
+    const DelayCase p = draw_delay_case(generator);
     const auto root = rightmost_delay_root(p.system, p.tissue, p.L);
     CAPTURE(p.system.delay);
     CAPTURE(p.tissue.stiffness);
@@ -71,7 +59,7 @@ TEST_CASE("at the delay margin a pair lies on the axis, below it none is to its 
   INFO("seed 53");
   int finite = 0;
   for (int i = 0; i < 2'000; ++i) {
-    Problem p = draw(generator);
+    DelayCase p = draw_delay_case(generator);
     const double margin = delay_margin(tool, p.tissue, p.L);
     CAPTURE(p.L);
     CAPTURE(margin);
@@ -218,4 +206,33 @@ TEST_CASE("arguments that make no sense are refused") {
   CHECK_THROWS_AS((void)rightmost_delay_root<double>({tool, 1}, {nan, 1}, {0, 0}), std::invalid_argument);
   CHECK_THROWS_AS((void)rightmost_delay_root<double>({{.mass = 0}, 1}, {1, 1}, {0, 0}), std::invalid_argument);
   CHECK_THROWS_AS((void)delay_margin<double>(tool, {1, 1}, {nan, 0}), std::invalid_argument);
+}
+
+TEST_CASE("the unit of time does not matter, however small or large") {
+  // s^2 + s/10 + 1 = -(9/10) exp(-3 s), in units of u seconds.
+  const auto root = rightmost_delay_root<double>({{.mass = 1, .damping = 0.1, .stiffness = 1}, 3}, {0, 0}, {-0.9, 0});
+  const double margin = delay_margin<double>({.mass = 1, .damping = 0.1, .stiffness = 1}, {0, 0}, {-0.9, 0});
+  REQUIRE(root.real() > 0);
+  for (const double u : {1e-150, 1e-100, 1e100, 1e150}) {
+    CAPTURE(u);
+    const Tool<1> scaled{.mass = 1, .damping = 0.1 / u, .stiffness = 1 / u / u};
+    const DelaySystem<double> system{scaled, 3 * u};
+    const Gain<double> L(-0.9 / u / u, 0);
+    CHECK_FALSE(delay_stable<double>(system, {0, 0}, L));
+    CHECK(delay_roots_right_of<double>(system, {0, 0}, L, 0.1 / u) == 2);
+    CHECK(rightmost_delay_root<double>(system, {0, 0}, L).real() * u == doctest::Approx(root.real()).epsilon(1e-12));
+    CHECK(delay_margin<double>(scaled, {0, 0}, L) / u == doctest::Approx(margin).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("where digits are lost to overflow or underflow no delay is called safe") {
+  const DelaySystem<double> overflows{{.mass = 1e-300, .damping = 1, .stiffness = 1e300}, 1e-3};
+  CHECK(delay_margin<double>(overflows.tool, {0, 0}, {-1e300, 0}) == 0);
+  CHECK_FALSE(delay_stable<double>(overflows, {0, 0}, {-1e300, 0}));
+  // L1 = -2 k in honey crosses the axis at 2e-200 rad/s: unstable at this delay.
+  const DelaySystem<double> honey{{.mass = 1, .damping = 1, .stiffness = 1e-200}, 1e201};
+  CHECK_FALSE(delay_stable<double>(honey, {0, 0}, {-2e-200, 0}));
+  CHECK(delay_margin<double>(honey.tool, {0, 0}, {-2e-200, 0}) < 1e201);
+  const DelaySystem<double> apart{{.mass = 1, .damping = 1e200, .stiffness = 1}, 1};
+  CHECK(delay_roots_right_of<double>(apart, {0, 0}, {2, 0}, 0) == -1);
 }

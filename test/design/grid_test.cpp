@@ -75,3 +75,12 @@ TEST_CASE("the box of a grid is from its first corner to its last") {
   CHECK(box.lower == Tissue<double>{200, 20});
   CHECK(box.upper == Tissue<double>{2000, 40});
 }
+
+TEST_CASE("a side without end has no values, and a grid of more cells than any memory is refused") {
+  const double inf = std::numeric_limits<double>::infinity();
+  CHECK(GridSide<double>{0, 1, inf}.size() == 0);
+  CHECK(GridSide<double>{0, 1e-300, 1e300}.size() == 0);
+  const Grid<double> vast{{0, 1, 999'999}, {0, 1, 999'999}};
+  CHECK_THROWS_WITH_AS(vast.check(), "Grid: cells: expected a hundred million or fewer, got 1000000000000",
+                       std::invalid_argument);
+}

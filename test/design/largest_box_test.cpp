@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
 #include "design_instances.hpp"
 
 #include <limpid/design/largest_certified_box.hpp>
@@ -12,7 +13,7 @@ using limpid::Verdict;
 
 namespace {
 
-const TissueBox<> whole{{200, 20}, {2000, 40}};
+const TissueBox<>& whole = limpid::test::box;
 
 }  // namespace
 
@@ -41,15 +42,15 @@ TEST_CASE("where the whole box is feasible nothing else is tried; where none is,
 }
 
 TEST_CASE("Theorem 5 at 0.1 s: the largest box about (1100, 30) is .928 of the whole") {
-  const limpid::PredictorDesign<> design{.tool = {.mass = 0.1, .damping = 0.1, .stiffness = 0}, .T_d = 0.1};
-  const auto largest = limpid::largest_box_theorem5(design, whole, {1.8e5, 2000});
+  const auto design = limpid::test::design_at(0.1, 0);
+  const auto largest = limpid::largest_box_theorem5(design, whole, limpid::test::rates);
   CHECK(largest.verdict == Verdict::feasible);
   CHECK(largest.scale == doctest::Approx(0.928).epsilon(0.01));
   CHECK(largest.not_beyond - largest.scale <= 1e-3);  // proved on both sides
 }
 
 TEST_CASE("one gain for all of the box: free it serves a larger box than a given one") {
-  const limpid::PredictorDesign<> design{.tool = {.mass = 0.1, .damping = 0.1, .stiffness = 1}, .T_d = 0.016};
+  const auto design = limpid::test::design_at(0.016);
   const auto given = limpid::largest_box_theorem3(design, whole, limpid::Gain<>(-441.3, -12.12));  // Table 6.4
   const auto free = limpid::largest_box_theorem3(design, whole);
   CHECK(given.verdict == Verdict::feasible);
@@ -62,4 +63,14 @@ TEST_CASE("what cannot be used is refused") {
   const auto decide = [](const auto&) { return Verdict::feasible; };
   CHECK_THROWS_AS((void)limpid::largest_box<double>({{300, 20}, {200, 40}}, decide), std::invalid_argument);
   CHECK_THROWS_AS((void)limpid::largest_box<double>(whole, decide, {.most = 0}), std::invalid_argument);
+}
+
+TEST_CASE("a tolerance below rounding, and a scale that is the largest number, come to an end") {
+  const auto decide = [](const TissueBox<>& box) {
+    return box.upper.stiffness < 0.8 ? Verdict::feasible : Verdict::infeasible;  // scale 0.6
+  };
+  const auto fine = limpid::largest_box<double>({{0, 0}, {1, 1}}, decide, {.tolerance = 1e-300});
+  CHECK(fine.scale == doctest::Approx(0.6).epsilon(1e-15));
+  const auto far = limpid::largest_box<double>({{0, 0}, {1, 1}}, decide, {.most = 1e308});
+  CHECK(far.scale == doctest::Approx(0.6).epsilon(2e-3));
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "design/lmi_cases.hpp"
 #include "design_instances.hpp"
 
 #include <limpid/design/lmi.hpp>
@@ -14,14 +15,9 @@ using Eigen::Matrix2d;
 using limpid::block;
 using limpid::Lmi;
 using limpid::symmetric_block;
+using limpid::test::matrix;
 
 namespace {
-
-Matrix2d matrix(double a, double b, double c, double d) {
-  Matrix2d A;
-  A << a, b, c, d;
-  return A;
-}
 
 Eigen::MatrixXd terms(const limpid::LmiExpression<>& expression, const Eigen::VectorXd& x) {
   limpid::LmiResult<> result;
@@ -89,4 +85,39 @@ TEST_CASE("data that are not finite are refused") {
   CHECK_THROWS_AS((void)(matrix(nan, 0, 0, 1) * P), std::invalid_argument);
   CHECK_THROWS_AS((void)(P > nan), std::invalid_argument);
   CHECK_THROWS_AS((void)(std::numeric_limits<double>::infinity() * P), std::invalid_argument);
+}
+
+TEST_CASE("blocks without rows or columns take no room, and no inequality is made of them") {
+  Lmi<> lmi;
+  const auto P = lmi.symmetric("P", 2);
+  CHECK(block({{P, limpid::zero(2, 0)}}).columns() == 2);
+  CHECK(block({{P}, {limpid::zero(0, 2)}}).rows() == 2);
+  CHECK(block({{P, 0}, {0, 0}}).rows() == 3);  // plain zeros are one high
+  CHECK_THROWS_WITH_AS(lmi.require(limpid::zero(0, 0) > 0),
+                       "Lmi: inequality: expected rows and columns > 0, got 0 (0 x 0)", std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)limpid::zero(-1, 2), "Lmi: expected rows and columns >= 0, got -1 x 2",
+                       std::invalid_argument);
+}
+
+TEST_CASE("terms outside the matrix, and unknowns that there are not, are refused") {
+  Lmi<> lmi;
+  const auto P = lmi.symmetric("P", 2);
+  auto sum = P;
+  const limpid::Ball<double> one(1.0);
+  CHECK_THROWS_WITH_AS(sum.add(0, 2, 0, one), "Lmi: expected a place inside 2 x 2, got 1 x 1 at (2, 0)",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(sum.add(P, 1, 0), "Lmi: expected a place inside 2 x 2, got 2 x 2 at (1, 0)",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(sum.add(3, 0, 0, one), "Lmi: unknown: expected one of its Lmi, got 3", std::invalid_argument);
+  CHECK_THROWS_AS(sum.add(-2, 0, 0, one), std::invalid_argument);
+}
+
+TEST_CASE("more unknowns than can be solved for are refused, also where their number is too large to count") {
+  Lmi<> lmi;
+  (void)lmi.symmetric("P", 2);
+  CHECK_THROWS_WITH_AS((void)lmi.full("X", 100, 100),
+                       "Lmi: X: expected at most 10000 unknowns in all, got 100 x 100 after 3", std::invalid_argument);
+  CHECK_THROWS_AS((void)lmi.full("Y", 70'000, 70'000), std::invalid_argument);
+  CHECK_THROWS_AS((void)lmi.symmetric("Q", 2'000'000'000), std::invalid_argument);
+  CHECK(lmi.scalar("g").rows() == 1);  // a refused variable leaves no trace
 }

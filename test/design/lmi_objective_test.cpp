@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "design/lmi_cases.hpp"
 #include "design_instances.hpp"
 
 #include <limpid/design/lmi.hpp>
@@ -15,16 +16,7 @@ using limpid::block;
 using limpid::identity;
 using limpid::Lmi;
 using limpid::symmetric_block;
-
-namespace {
-
-Matrix2d matrix(double a, double b, double c, double d) {
-  Matrix2d A;
-  A << a, b, c, d;
-  return A;
-}
-
-}  // namespace
+using limpid::test::matrix;
 
 TEST_CASE("the H-infinity norm of a first order lag is found and bounded from both sides") {
   // x' = -a x + b w, z = c x: the norm is b c/a. Bounded real lemma, with the square of the norm as unknown.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "design/lmi_cases.hpp"
 #include "design_instances.hpp"
 
 #include <limpid/design/lmi.hpp>
@@ -17,14 +18,10 @@ using limpid::identity;
 using limpid::Lmi;
 using limpid::symmetric_block;
 using limpid::Verdict;
+using limpid::test::Lyapunov;
+using limpid::test::matrix;
 
 namespace {
-
-Matrix2d matrix(double a, double b, double c, double d) {
-  Matrix2d A;
-  A << a, b, c, d;
-  return A;
-}
 
 MatrixXd random_matrix(std::mt19937& random, int rows, int columns) {
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -34,16 +31,12 @@ MatrixXd random_matrix(std::mt19937& random, int rows, int columns) {
 }  // namespace
 
 TEST_CASE("a stable matrix has a Lyapunov matrix, and it is one") {
-  Matrix2d A;
-  A << 0, 1, -2, -3;
-  Lmi<> lmi;
-  const auto P = lmi.symmetric("P", 2);
-  lmi.require(A.transpose() * P + P * A < 0);
-  lmi.require(P > 0);
-  const auto result = lmi.solve();
+  const Matrix2d A = matrix(0, 1, -2, -3);
+  const Lyapunov problem(A);
+  const auto result = problem.lmi.solve();
   REQUIRE(result.verdict == Verdict::feasible);
   CHECK(result.margin >= 0);
-  const Matrix2d value = result[P];
+  const Matrix2d value = result[problem.P];
   CHECK(value == value.transpose());
   CHECK(value(0, 0) > 0);
   CHECK(value.determinant() > 0);
@@ -54,11 +47,7 @@ TEST_CASE("a stable matrix has a Lyapunov matrix, and it is one") {
 
 TEST_CASE("an unstable matrix has none, and the multipliers prove it") {
   const Matrix2d A = matrix(0, 1, -2, 0.25);
-  Lmi<> lmi;
-  const auto P = lmi.symmetric("P", 2);
-  lmi.require(A.transpose() * P + P * A < 0);
-  lmi.require(P > 0);
-  const auto result = lmi.solve();
+  const auto result = Lyapunov(A).lmi.solve();
   REQUIRE(result.verdict == Verdict::infeasible);
   // <-(A'P + P A), Z1> + <P, Z2> = 0 for all P: Z2 = A Z1 + Z1 A'
   const auto& Z = result.multipliers.Z;
@@ -115,15 +104,11 @@ TEST_CASE("inequalities with constants: between two numbers or none") {
 }
 
 TEST_CASE("borderline: a marginally stable matrix is undecided, with the reason") {
-  const Matrix2d A = matrix(0, 1, -1, 0);
-  Lmi<> lmi;
-  const auto P = lmi.symmetric("P", 2);
-  lmi.require(A.transpose() * P + P * A < 0);
-  lmi.require(P > 0);
-  const auto result = lmi.solve();
+  const Lyapunov problem(matrix(0, 1, -1, 0));
+  const auto result = problem.lmi.solve();
   CHECK(result.verdict != Verdict::feasible);  // Z1 = I proves it infeasible, which rounding may hide
   CHECK(!result.reason.empty());
-  CHECK(std::isnan(result[P](0, 0)) == true);
+  CHECK(std::isnan(result[problem.P](0, 0)) == true);
 }
 
 TEST_CASE("alternatives by Farkas: one of two systems holds, never both") {
@@ -243,12 +228,6 @@ TEST_CASE("an equation is kept, whichever its sign") {
 }
 
 TEST_CASE("the same problem has the same answer, to the bit") {
-  const auto solve = [] {
-    Lmi<> lmi;
-    const auto P = lmi.symmetric("P", 2);
-    lmi.require(matrix(-1, 2, 0, -3) * P + P * matrix(-1, 0, 2, -3) < 0);
-    lmi.require(P > 0);
-    return lmi.solve();
-  };
+  const auto solve = [] { return Lyapunov(matrix(-1, 0, 2, -3)).lmi.solve(); };
   CHECK(solve().unknowns == solve().unknowns);
 }

@@ -85,8 +85,10 @@ TEST_CASE("one thread is the caller's") {
   CHECK(result.count([](bool same) { return same; }) == 399);
 }
 
-TEST_CASE("a broken grid and a negative number of threads are refused") {
+TEST_CASE("a broken grid, and a number of threads that is negative or absurd, are refused") {
   const Grid<double> broken{{200, 0, 2000}, {20, 1, 40}};
   CHECK_THROWS_AS((void)map(broken, product), std::invalid_argument);
   CHECK_THROWS_AS((void)map(thesis, product, {.threads = -1}), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)map(thesis, product, {.threads = 2'000'000'000}),
+                       "MapSettings: threads: expected 0 to 1024, got 2000000000", std::invalid_argument);
 }

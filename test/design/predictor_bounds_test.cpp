@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
 #include "design_instances.hpp"
 
 #include <limpid/design/adaptation_rate.hpp>
@@ -18,8 +19,8 @@ using limpid::Verdict;
 
 namespace {
 
-const PredictorDesign<> case2{.tool = {.mass = 0.1, .damping = 0.1, .stiffness = 1}, .T_d = 1 / 60.0};
-const limpid::TissueBox<> box{{200, 20}, {2000, 40}};
+const auto& box = limpid::test::box;
+const PredictorDesign<> case2 = limpid::test::design_at(1 / 60.0);
 
 }  // namespace
 
@@ -70,7 +71,7 @@ TEST_CASE("Theorem 5's bound is the tighter one's, and no smaller than that of o
   PredictorDesign<> design = case2;
   design.T_d = 0.016;
   design.tool.stiffness = 0;
-  const limpid::TissueRates<> rates{1.8e5, 2000};
+  const auto& rates = limpid::test::rates;
   const auto theorem = limpid::printed_theorem5<double>(design, box, rates);
   const auto result = theorem.at_centre.lmi.solve();
   REQUIRE(result.feasible());

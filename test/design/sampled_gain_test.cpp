@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
+
 #include <limpid/design/sampled_gain.hpp>
 #include <limpid/design/sampled_stability.hpp>
 
@@ -16,12 +18,11 @@ using limpid::SampledSystem;
 using limpid::smallest_sampled_radius;
 using limpid::Tissue;
 using limpid::TissueBox;
-using limpid::Tool;
+using limpid::test::tool;
 
 namespace {
 
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-const TissueBox<> box{{200, 20}, {2000, 40}};
+const auto& box = limpid::test::box;
 
 }  // namespace
 
@@ -130,4 +131,22 @@ TEST_CASE("boxes and systems that make no sense are refused") {
   CHECK_THROWS_AS((void)robust_sampled_gain<double>({tool, 0, 0}, box), std::invalid_argument);
   CHECK_THROWS_AS((void)robust_sampled_gain<double>({tool, 0.1, 0.1}, {{2, 1}, {1, 1}}), std::invalid_argument);
   CHECK_THROWS_AS((void)smallest_sampled_radius<double>({tool, 0.1, 0.1}, {std::nan(""), 1}), std::invalid_argument);
+}
+
+TEST_CASE("over an absurdly wide box the gain is no worse than none") {
+  const TissueBox<double> wide{{0, 0}, {1e6, 10}};
+  for (const double periods : {0.0, 1.0}) {
+    CAPTURE(periods);
+    const SampledSystem<double> system{{.mass = 0.1, .damping = 1, .stiffness = 100}, 0.01, 0.01 * periods};
+    const auto robust = robust_sampled_gain(system, wide);
+    const auto none = limpid::worst_sampled_radius(system, wide, Gain<double>(0, 0));
+    CHECK(robust.worst.proved <= none.proved);
+    if (!robust.worst.proof.proved()) CHECK(robust.worst.found <= none.found);
+  }
+}
+
+TEST_CASE("where the numbers are too large to tell the gain is none") {
+  const auto robust = robust_sampled_gain<double>({tool, 0.1, 0.1}, {{-1e5, -1e5}, {0, -9e4}});
+  CHECK(robust.gain == Gain<double>(0, 0));
+  CHECK_FALSE(robust.worst.proof.proved());
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
+
 #include <limpid/design/sampled_stability.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/prediction/model_predictor.hpp>
@@ -13,13 +15,8 @@ using limpid::Gain;
 using limpid::SampledStability;
 using limpid::SampledSystem;
 using limpid::Tool;
+using limpid::test::tool;
 using namespace std::chrono_literals;
-
-namespace {
-
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-
-}  // namespace
 
 TEST_CASE("the monodromy matrix takes the library's own predictor from sample to sample") {
   using Env = limpid::KelvinVoigt<1>;

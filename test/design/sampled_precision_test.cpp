@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
+
 #include <limpid/design/sampled_stability.hpp>
 #include <support/precision.hpp>
 
@@ -14,10 +16,9 @@ using limpid::SampledSystem;
 using limpid::Tissue;
 using limpid::Tool;
 using limpid::test::Fifty;
+using limpid::test::tool;
 
 namespace {
-
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
 
 template <typename Scalar>
 Tool<1, Scalar> tool_in() {

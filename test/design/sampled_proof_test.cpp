@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
+
 #include <limpid/design/sampled_proof.hpp>
 #include <limpid/design/sampled_stability.hpp>
 #include <limpid/design/sampled_worst.hpp>
@@ -16,14 +18,13 @@ using limpid::SampledStability;
 using limpid::SampledSystem;
 using limpid::Tissue;
 using limpid::TissueBox;
-using limpid::Tool;
 using limpid::Verdict;
 using limpid::worst_sampled_radius;
+using limpid::test::tool;
 
 namespace {
 
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-const TissueBox<> box{{200, 20}, {2000, 40}};
+const auto& box = limpid::test::box;
 
 }  // namespace
 

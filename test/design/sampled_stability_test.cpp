@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "design/palpation.hpp"
+
 #include <limpid/design/sampled_stability.hpp>
 #include <support/no_allocation.hpp>
 
@@ -16,13 +18,7 @@ using limpid::sampled_radius;
 using limpid::SampledStability;
 using limpid::SampledSystem;
 using limpid::Tissue;
-using limpid::Tool;
-
-namespace {
-
-const Tool<1> tool{.mass = 0.1, .damping = 0.1, .stiffness = 1};
-
-}  // namespace
+using limpid::test::tool;
 
 TEST_CASE("without feedback the radius is that of the tissue alone, whatever the delay") {
   // The slowest mode of the worst tissues of the notes' table: ke 200 and be 40 up to T = .1.
@@ -129,4 +125,22 @@ TEST_CASE("with a delay of up to a period nothing is allocated") {
     sum += whole.stable({600, 25}, {-100, -1}) ? 1 : 0;
   });
   CHECK(sum > 0);
+}
+
+TEST_CASE("a radius that is a subnormal number, or none, comes to an end") {
+  // The slow mode of s^2 + 1e6 s + r 1e6 is exp(-r) after a second: 5e-324 at r = 744.4.
+  for (const double r : {700.0, 735.0, 740.0, 744.0, 745.0}) {
+    CAPTURE(r);
+    const SampledSystem<double> system{{.mass = 1, .damping = 1e6, .stiffness = r * 1e6}, 1, 2.5};
+    CHECK(sampled_radius<double>(system, {0, 0}, {0, 0}) == doctest::Approx(std::exp(-r)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("nothing is stable below a bound that is not above zero") {
+  const SampledStability<double> stability({tool, 0.016, 0.016});
+  REQUIRE(stability.stable({500, 20}, {0, 0}));
+  for (const double bound : {0.0, -1.0, -2.0, std::numeric_limits<double>::quiet_NaN()}) {
+    CAPTURE(bound);
+    CHECK_FALSE(stability.stable({500, 20}, {0, 0}, bound));
+  }
 }

@@ -142,6 +142,28 @@ TEST_CASE("A neighbour's certificate serves where it holds, and only there") {
   CHECK(beside.iterations == 0);
 }
 
+TEST_CASE("A neighbour's certificate that is not symmetric proves nothing") {
+  const auto design = design_at(0.1);
+  const auto serves = [&](const Tissue<double>& tissue, const Theorem3Certificate<double>& certificate) {
+    return verify_theorem3(design, tissue, gain_1, &certificate).iterations == 0;
+  };
+  const auto feasible = verify_theorem3(design, Tissue<double>{1100, 30}, gain_1).certificate;
+  REQUIRE(serves({1100, 30}, feasible));
+  for (const auto matrix : {&detail::LyapunovMatrices<double>::P, &detail::LyapunovMatrices<double>::Q,
+                            &detail::LyapunovMatrices<double>::R}) {
+    auto skewed = feasible;
+    (skewed.lyapunov.*matrix).a12 *= 1 + 1e-12;
+    CHECK_FALSE(serves({1100, 30}, skewed));
+  }
+  const auto infeasible = verify_theorem3(design, Tissue<double>{200, 30}, gain_1).certificate;
+  REQUIRE(serves({200, 30}, infeasible));
+  for (const int row : {1, 3}) {
+    auto skewed = infeasible;
+    skewed.multipliers.Z_dynamics[0](row, 0) *= 1 + 1e-12;
+    CHECK_FALSE(serves({200, 30}, skewed));
+  }
+}
+
 TEST_CASE("Over a box one P, Q, R serves every tissue, and no single one the whole box at Table 6.4's gains") {
   const auto design = design_at(0.032);
   const TissueBox<double> small{{1000, 28}, {1200, 32}};
@@ -153,10 +175,9 @@ TEST_CASE("Over a box one P, Q, R serves every tissue, and no single one the who
       CHECK(proves_feasible(design, {k, b}, gain_032, result.certificate.lyapunov, d));
     }
   }
-  const TissueBox<double> whole{{200, 20}, {2000, 40}};
-  CHECK(verify_theorem3(design_at(0.016), whole, gain_016).verdict == Verdict::infeasible);
-  CHECK(verify_theorem3(design, whole, gain_032).verdict == Verdict::infeasible);
-  CHECK(verify_theorem3(design_at(0.1), whole, gain_1).verdict == Verdict::infeasible);
+  CHECK(verify_theorem3(design_at(0.016), box, gain_016).verdict == Verdict::infeasible);
+  CHECK(verify_theorem3(design, box, gain_032).verdict == Verdict::infeasible);
+  CHECK(verify_theorem3(design_at(0.1), box, gain_1).verdict == Verdict::infeasible);
 }
 
 TEST_CASE("A list of tissues has the verdict of the box whose vertices they are") {

@@ -15,8 +15,6 @@ namespace {
 using namespace limpid;
 using namespace limpid::test;
 
-const TissueRates<double> rates{1.8e5, 2000};  // thesis section 6.2.1
-
 /// Half widths about (1100, 30) scaled.
 TissueBox<double> box_of(double size) {
   return {{1100 - 900 * size, 30 - 10 * size}, {1100 + 900 * size, 30 + 10 * size}};
@@ -43,11 +41,7 @@ bool holds_at(const PredictorDesign<double>& design, const TissueBox<double>& bo
              R = in_fifty(found.R), X = in_fifty(found.X);
   const FiftyMatrix<2, 2> P = P0 + P1 * xi(rho.stiffness, box.lower.stiffness, box.upper.stiffness) +
                               P2 * xi(rho.damping, box.lower.damping, box.upper.damping);
-  FiftyMatrix<8, 8> Xi = at.without_M(P, Q, R);
-  FiftyMatrix<2, 6> C;
-  C << -at.A * X.transpose(), -at.BL * X.transpose(), X.transpose();
-  const FiftyMatrix<6, 6> EC = at.E() * C;
-  Xi.topLeftCorner<6, 6>() += EC + EC.transpose();
+  FiftyMatrix<8, 8> Xi = at.with_gain(P, Q, R, X);
   Xi.topLeftCorner<2, 2>() += P1 * slope(rate.stiffness, box.lower.stiffness, box.upper.stiffness) +
                               P2 * slope(rate.damping, box.lower.damping, box.upper.damping);
   return positive_definite(P) && positive_definite(Q) && positive_definite(R) &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "design/palpation.hpp"
 #include "support/precision.hpp"
 
 #include <limpid/design/design_point.hpp>
@@ -14,15 +15,6 @@ namespace limpid::test {
 
 template <int rows, int cols>
 using FiftyMatrix = Eigen::Matrix<Fifty, rows, cols>;
-
-inline PredictorDesign<double> design_at(double T_d, double k_t = 1) {
-  PredictorDesign<double> design;
-  design.tool.mass = 0.1;
-  design.tool.damping = 0.1;
-  design.tool.stiffness = k_t;
-  design.T_d = T_d;
-  return design;
-}
 
 template <typename Matrix>
 bool positive_definite(Matrix A) {
@@ -74,6 +66,17 @@ struct FiftyPoint {
         N2 - N1.transpose(), -Q - N2 - N2.transpose(), O, N2 * T,       //
         P, O, R * T, O,                                                 //
         N1.transpose() * T, N2.transpose() * T, O, -R * T;
+    return result;
+  }
+
+  /// The same of the bars, X = M1^-1, with He(E [-A X'  -B L X'  X']) added.
+  [[nodiscard]] FiftyMatrix<8, 8> with_gain(const FiftyMatrix<2, 2>& P, const FiftyMatrix<2, 2>& Q,
+                                            const FiftyMatrix<2, 2>& R, const FiftyMatrix<2, 2>& X) const {
+    FiftyMatrix<8, 8> result = without_M(P, Q, R);
+    FiftyMatrix<2, 6> C;
+    C << -A * X.transpose(), -BL * X.transpose(), X.transpose();
+    const FiftyMatrix<6, 6> EC = E() * C;
+    result.topLeftCorner<6, 6>() += EC + EC.transpose();
     return result;
   }
 };

@@ -130,3 +130,25 @@ TEST_CASE("A ball that is not a number, in any row, proves nothing") {
     CHECK(verified_least_eigenvalue(A) == -std::numeric_limits<double>::infinity());
   }
 }
+
+TEST_CASE("A matrix that is not symmetric, not square or empty proves nothing") {
+  const double none = -std::numeric_limits<double>::infinity();
+  Eigen::Matrix2d A;
+  A << 1, 100, 0, 1;  // x'A x < 0 at x = (1, -1)
+  CHECK_FALSE(verified_positive_definite(A));
+  CHECK(verified_least_eigenvalue(A) == none);
+  CHECK_FALSE(verified_positive_definite(Eigen::MatrixXd(Eigen::MatrixXd::Ones(2, 3))));
+  CHECK_FALSE(verified_positive_definite(Eigen::MatrixXd(Eigen::MatrixXd::Ones(3, 2))));
+  CHECK(verified_least_eigenvalue(Eigen::MatrixXd(0, 0)) == none);
+  Eigen::Matrix<Ball<double>, 2, 2> balls = Eigen::Matrix2d::Identity().cast<Ball<double>>();
+  balls(0, 1) = Ball<double>(0.25, 0.25);  // has 0 in common with its mirror image
+  CHECK(verified_positive_definite(balls));
+  balls(0, 1) = Ball<double>(0.5, 0.25);
+  CHECK_FALSE(verified_positive_definite(balls));
+}
+
+TEST_CASE("An error below zero proves nothing") {
+  Eigen::Matrix2d A;
+  A << 1, 0, 0, -1;
+  CHECK_FALSE(verified_positive_definite(A, -2.0));
+}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "support/csdp_process.hpp"
+
 #include <limpid/design/lmi_problem.hpp>
 
 #include <cstdlib>
@@ -8,15 +10,10 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 namespace limpid::test {
-
-[[nodiscard]] inline bool has_csdp() { return std::system("command -v csdp > /dev/null 2>&1") == 0; }
 
 /// Writes max t with F(x) - t I >= 0 and 0.9 n <= tr F(x) <= n for CSDP, as min c'z with sum z_i G_i - G_0 >= 0.
 inline void write_margin_problem(const LmiProblem<double>& problem, const std::filesystem::path& file) {
@@ -57,35 +54,26 @@ inline void write_margin_problem(const LmiProblem<double>& problem, const std::f
 /// CSDP's t for each of the problems, in the scale of tr F = n; nothing where it failed.
 class Csdp {
  public:
-  Csdp() {
-    std::string name = (std::filesystem::temp_directory_path() / "limpid-csdp-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("mkdtemp");
-    folder_ = name;
-  }
-  ~Csdp() { std::filesystem::remove_all(folder_); }
-  Csdp(const Csdp&) = delete;
-  Csdp& operator=(const Csdp&) = delete;
-
   [[nodiscard]] std::optional<double> margin(const LmiProblem<double>& problem) const {
-    write_margin_problem(problem, folder_ / "problem.dat-s");
+    write_margin_problem(problem, folder_.path() / "problem.dat-s");
     return solve();
   }
   /// Runs CSDP on what was written last.
   [[nodiscard]] std::optional<double> solve() const {
-    const std::string command = "cd '" + folder_.string() + "' && OMP_NUM_THREADS=1 csdp problem.dat-s > log 2>&1";
+    const std::string command =
+        "cd '" + folder_.path().string() + "' && OMP_NUM_THREADS=1 csdp problem.dat-s > log 2>&1";
     const int status = std::system(command.c_str());
     (void)status;  // it says by its log how it went
-    std::ifstream log(folder_ / "log");
+    std::ifstream log(folder_.path() / "log");
     std::optional<double> value;
     for (std::string line; std::getline(log, line);) {
       if (line.rfind("Primal objective value:", 0) == 0) value = -std::strtod(line.c_str() + 23, nullptr);
     }
     return value;
   }
-  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_{};
 };
 
 }  // namespace limpid::test

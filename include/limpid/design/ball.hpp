@@ -32,9 +32,10 @@ class Ball {
   /// @param radius  >= 0
   constexpr Ball(const Scalar& centre, const Scalar& radius) : centre_{centre}, radius_{radius + (centre - centre)} {}
 
-  /// The smallest ball found around [lower, upper]; the whole line where an end is not finite.
+  /// The smallest ball found around [lower, upper]; the whole line where an end is not finite or they are the wrong way
+  /// round.
   [[nodiscard]] static Ball between(const Scalar& lower, const Scalar& upper) {
-    if (lower == upper) return {lower};
+    if (!(lower < upper)) return lower == upper ? Ball{lower} : whole_line();
     const Scalar centre = lower / Scalar{2} + upper / Scalar{2};
     return {centre, enlarged(std::max<Scalar>(upper - centre, centre - lower) + (upper - upper) + (lower - lower))};
   }
@@ -109,10 +110,6 @@ class Ball {
   /// The smallest ball found around both.
   [[nodiscard]] friend Ball hull(const Ball& x, const Ball& y) {
     return between(std::min<Scalar>(x.lower(), y.lower()), std::max<Scalar>(x.upper(), y.upper()));
-  }
-  /// What lies in both, which must have a number in common: two enclosures of the same one.
-  [[nodiscard]] friend Ball intersection(const Ball& x, const Ball& y) {
-    return between(std::max<Scalar>(x.lower(), y.lower()), std::min<Scalar>(x.upper(), y.upper()));
   }
 
   friend std::ostream& operator<<(std::ostream& out, const Ball& x) { return out << x.centre_ << " +- " << x.radius_; }

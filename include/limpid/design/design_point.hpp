@@ -2,11 +2,13 @@
 #pragma once
 
 #include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/environment/tool.hpp>
 
 #include <Eigen/Core>
 
+#include <array>
 #include <string_view>
 
 namespace limpid {
@@ -32,14 +34,39 @@ struct TissueBox {
   }
 
   [[nodiscard]] Tissue<Scalar> centre() const {
-    return {(lower.stiffness + upper.stiffness) / Scalar{2}, (lower.damping + upper.damping) / Scalar{2}};
+    return {lower.stiffness / Scalar{2} + upper.stiffness / Scalar{2},
+            lower.damping / Scalar{2} + upper.damping / Scalar{2}};
   }
 
  private:
   static void check_side(std::string_view name, const Scalar& from, const Scalar& to) {
-    expect(is_finite(from) && is_finite(to) && from <= to, name, "finite and lower <= upper", from);
+    expect(is_finite(from) && is_finite(to), name, "finite", is_finite(from) ? to : from);
+    expect(from <= to, name, "lower <= upper", from);
   }
 };
+
+/// A corner of a box, as (rho - centre)/half width in {-1, 1}^2; of the rates, as their signs.
+struct BoxCorner {
+  int stiffness = 0, damping = 0;
+};
+inline constexpr std::array<BoxCorner, 4> box_corners{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+
+template <Real Scalar>
+[[nodiscard]] Tissue<Scalar> tissue_at(const TissueBox<Scalar>& box, const BoxCorner& corner) {
+  return {corner.stiffness < 0 ? box.lower.stiffness : box.upper.stiffness,
+          corner.damping < 0 ? box.lower.damping : box.upper.damping};
+}
+
+namespace detail {
+
+/// In the order of `box_corners`.
+template <Real Scalar>
+[[nodiscard]] std::array<Tissue<Scalar>, 4> vertices(const TissueBox<Scalar>& box) {
+  return {tissue_at(box, box_corners[0]), tissue_at(box, box_corners[1]), tissue_at(box, box_corners[2]),
+          tissue_at(box, box_corners[3])};
+}
+
+}  // namespace detail
 
 /// Fastest change of a tissue, |rho'|_max of (4.51).
 template <Real Scalar = double>
@@ -64,6 +91,13 @@ struct AffineGain {
   Gain<Scalar> L0 = Gain<Scalar>::Zero();
   Gain<Scalar> L1 = Gain<Scalar>::Zero();
   Gain<Scalar> L2 = Gain<Scalar>::Zero();
+
+  /// @throws std::invalid_argument  where one of the six numbers is not finite
+  void check() const {
+    expect(is_finite(L0), "AffineGain: L0", "finite", L0);
+    expect(is_finite(L1), "AffineGain: L1", "finite", L1);
+    expect(is_finite(L2), "AffineGain: L2", "finite", L2);
+  }
 
   [[nodiscard]] Gain<Scalar> operator()(const Tissue<Scalar>& rho) const {
     return L0 + L1 * rho.stiffness + L2 * rho.damping;

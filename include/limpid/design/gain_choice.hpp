@@ -121,7 +121,7 @@ class RadiusSearch {
       for (int i = -half; i <= half; ++i) {
         for (int j = -half; j <= half; ++j) {
           const Eigen::Matrix<Scalar, 1, 2> offset(reach * Scalar(i) / Scalar(half), reach * Scalar(j) / Scalar(half));
-          consider(unscale_gain<Scalar>(design_, {centre[0] + offset[0], centre[1] + offset[1]}, d_));
+          consider(unscale_gain<Scalar>({centre[0] + offset[0], centre[1] + offset[1]}, design_.tool.mass, d_));
         }
       }
       if (best_.verdict != Verdict::feasible) continue;

@@ -4,10 +4,10 @@
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/design/design_point.hpp>
+#include <limpid/prediction/knots.hpp>
 
 #include <algorithm>
 #include <cstddef>
-#include <string_view>
 #include <vector>
 
 namespace limpid {
@@ -18,6 +18,8 @@ template <Real Scalar = double>
 struct KnotGrid {
   std::vector<Scalar> stiffness_knots{};  ///< N/m
   std::vector<Scalar> damping_knots{};    ///< N s/m
+
+  static constexpr std::size_t most = 1'000'000;  ///< nodes
 
   /// @param stiffnesses, dampings  how many along each side, at equal distances; >= 2
   /// @throws std::invalid_argument  where there are fewer or the box is empty or flat
@@ -31,8 +33,10 @@ struct KnotGrid {
 
   /// @throws std::invalid_argument  where knots do not rise, are not finite or too few
   void check() const {
-    check_side("KnotGrid: stiffness_knots", stiffness_knots);
-    check_side("KnotGrid: damping_knots", damping_knots);
+    detail::check_knots<Scalar>("KnotGrid: stiffness_knots", stiffness_knots);
+    detail::check_knots<Scalar>("KnotGrid: damping_knots", damping_knots);
+    expect(stiffness_knots.size() <= most / damping_knots.size(), "KnotGrid: nodes", "a million or fewer",
+           stiffness_knots.size() * damping_knots.size());
   }
 
   [[nodiscard]] int stiffnesses() const { return static_cast<int>(stiffness_knots.size()); }
@@ -51,17 +55,11 @@ struct KnotGrid {
 
  private:
   static std::vector<Scalar> side(const Scalar& from, const Scalar& to, int count) {
-    expect(count >= 2, "KnotGrid: knots of a side", ">= 2", count);
+    expect(count >= 2 && count <= static_cast<int>(most), "KnotGrid: knots of a side", "2 to a million", count);
     std::vector<Scalar> knots;
     for (int i = 0; i < count; ++i) knots.push_back(from + (to - from) * Scalar(i) / Scalar(count - 1));
     knots.back() = to;
     return knots;
-  }
-  static void check_side(std::string_view name, const std::vector<Scalar>& knots) {
-    expect(knots.size() >= 2, name, "two or more", knots.size());
-    for (std::size_t i = 0; i < knots.size(); ++i) {
-      expect(is_finite(knots[i]) && (i == 0 || knots[i - 1] < knots[i]), name, "finite and rising", knots[i]);
-    }
   }
 };
 
@@ -79,26 +77,22 @@ struct GainSpline {
   }
 
   /// Outside the box as on its face.
+  /// @throws std::invalid_argument  where there is not one L for each knot, as where a design found none
   [[nodiscard]] Gain<Scalar> operator()(const Tissue<Scalar>& rho) const {
+    const std::size_t knots_of = knots.stiffness_knots.size(), each = knots.damping_knots.size();
+    expect(knots_of >= 2 && each >= 2 && L.size() == knots_of * each, "GainSpline: L", "one for each knot", L.size());
     const auto [i, s] = place(knots.stiffness_knots, rho.stiffness);
     const auto [j, t] = place(knots.damping_knots, rho.damping);
-    const auto at = [this](int k, int b) -> const Gain<Scalar>& {
-      return L[static_cast<std::size_t>(knots.index(k, b))];
+    const auto at = [this](std::size_t k, std::size_t b) -> const Gain<Scalar>& {
+      return L[k * knots.damping_knots.size() + b];
     };
     return (at(i, j) * (Scalar{1} - t) + at(i, j + 1) * t) * (Scalar{1} - s) +
            (at(i + 1, j) * (Scalar{1} - t) + at(i + 1, j + 1) * t) * s;
   }
 
  private:
-  struct Place {
-    int cell;
-    Scalar part;  // of the cell, 0..1
-  };
-  static Place place(const std::vector<Scalar>& side, const Scalar& value) {
-    const Scalar inside = std::clamp<Scalar>(value, side.front(), side.back());
-    const auto above = std::upper_bound(side.begin() + 1, side.end() - 1, inside);
-    const auto cell = static_cast<std::size_t>(above - side.begin()) - 1;
-    return {static_cast<int>(cell), (inside - side[cell]) / (side[cell + 1] - side[cell])};
+  static detail::KnotPlace<Scalar> place(const std::vector<Scalar>& side, const Scalar& value) {
+    return detail::place_among<Scalar>(side, std::clamp<Scalar>(value, side.front(), side.back()));
   }
 };
 

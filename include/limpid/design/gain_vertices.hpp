@@ -3,6 +3,7 @@
 
 #include <limpid/design/fixed_gain_lmi.hpp>
 #include <limpid/design/reduced_lmi.hpp>
+#include <limpid/design/scaled_point.hpp>
 
 #include <array>
 #include <cstddef>
@@ -16,13 +17,13 @@ namespace limpid::detail {
 template <int terms>
 using Weights = std::array<int, static_cast<std::size_t>(terms)>;
 
-/// (1, xi_1, xi_2) at vertex i of detail::vertices.
+/// (1, xi_1, xi_2) at box corner i.
 template <int terms>
 [[nodiscard]] constexpr Weights<terms> weights_at(std::size_t i) {
   if constexpr (terms == 1) {
     return {1};
   } else {
-    return {1, i % 2 == 0 ? -1 : 1, i / 2 % 2 == 0 ? -1 : 1};
+    return {1, box_corners[i].stiffness, box_corners[i].damping};
   }
 }
 
@@ -105,22 +106,15 @@ struct GainCase {
     resize(result.A, tissues.size());
     resize(result.L, tissues.size());
     for (std::size_t i = 0; i < tissues.size(); ++i) result.A[i] = scale_dynamics<B>(design, tissues[i], d);
-    const auto by_half = [&](const Scalar& rate, const Scalar& lower, const Scalar& upper) {
-      return upper > lower ? B(rate) * B(Scalar{2}) / ((B(upper) - B(lower)) * B(d)) : B(Scalar{0});
-    };
-    result.rate_by_half = {by_half(rates.stiffness, box.lower.stiffness, box.upper.stiffness),
-                           by_half(rates.damping, box.lower.damping, box.upper.damping)};
+    result.rate_by_half = {rate_by_half_width(rates.stiffness, box.lower.stiffness, box.upper.stiffness, d),
+                           rate_by_half_width(rates.damping, box.lower.damping, box.upper.damping, d)};
     return result;
   }
 
   /// L' at each tissue, of a gain that is exact as it is.
   void set_gain(const AffineGain<Scalar>& gain, GainVertices<Ball<Scalar>, points>& vertices) const {
-    using B = Ball<Scalar>;
-    const B per_velocity = B(design.tool.mass) * B(d);
     for (std::size_t i = 0; i < tissues.size(); ++i) {
-      const B k(tissues[i].stiffness), b(tissues[i].damping);
-      const auto at = [&](int j) { return B(gain.L0[j]) + B(gain.L1[j]) * k + B(gain.L2[j]) * b; };
-      vertices.L[i] = {at(0) / (per_velocity * B(d)), at(1) / per_velocity};
+      vertices.L[i] = scale_gain(design, enclosed_gain(gain, tissues[i]), d);
     }
   }
 
@@ -128,21 +122,16 @@ struct GainCase {
   template <int terms>
   [[nodiscard]] AffineGain<Scalar> gain_of(const std::array<Row2<Scalar>, static_cast<std::size_t>(terms)>& Y,
                                            const Matrix2<Scalar>& X) const {
-    const Scalar determinant = X.a11 * X.a22 - X.a12 * X.a21;
-    const Matrix2<Scalar> inverse = Matrix2<Scalar>{X.a22, -X.a21, -X.a12, X.a11} * (Scalar{1} / determinant);  // of X'
-    AffineGain<Scalar> gain;
-    gain.L0 = unscale_gain<Scalar>(design, Y[0] * inverse, d);
-    if constexpr (terms > 1) {
-      const auto slope = [&](const Row2<Scalar>& part, const Scalar& lower, const Scalar& upper) -> Gain<Scalar> {
-        if (!(upper > lower)) return Gain<Scalar>::Zero();
-        return unscale_gain<Scalar>(design, part * inverse, d) * (Scalar{2} / (upper - lower));
-      };
-      gain.L1 = slope(Y[1], box.lower.stiffness, box.upper.stiffness);
-      gain.L2 = slope(Y[2], box.lower.damping, box.upper.damping);
-      const Tissue<Scalar> centre = box.centre();
-      gain.L0 -= gain.L1 * centre.stiffness + gain.L2 * centre.damping;
+    const auto in_raw_units = [&](const Row2<Scalar>& part) {
+      return detail::gain_of<Scalar>(X, part, design.tool.mass, d);
+    };
+    if constexpr (terms == 1) {
+      AffineGain<Scalar> constant;
+      constant.L0 = in_raw_units(Y[0]);
+      return constant;
+    } else {
+      return affine_gain<Scalar>(box, in_raw_units(Y[0]), in_raw_units(Y[1]), in_raw_units(Y[2]));
     }
-    return gain;
   }
 };
 

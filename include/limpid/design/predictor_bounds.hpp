@@ -4,11 +4,11 @@
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/design/printed_theorem5.hpp>
+#include <limpid/design/reduced_theorem.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -82,24 +82,15 @@ class BoundProblem {
 
   /// @param rate  sum +-|rho_i'|_max dP/drho_i
   void require(const ErrorDynamics<Scalar>& e, const Expression& P_here, const Expression& rate) {
-    const auto& [A, B, L, T_d, a2, a3] = e;
-    const Expression MA = M1_ * A, MBL = M1_ * (Expression(B) * L), Mt = transpose(M1_);
-    const Expression by_T = (Ball<Scalar>(Scalar{1}) / T_d) * R_, row = transpose(M1_ * column_);
-    const Expression Xi11 = Q_ - by_T - MA - transpose(MA) + S_ + rate;
-    const Expression Xi21 = by_T - a2 * MA - transpose(MBL);
-    const Expression Xi22 = -Q_ - by_T - a2 * MBL - a2 * transpose(MBL);
-    const Expression Xi31 = P_here - a3 * MA + Mt;
-    const Expression Xi32 = a2 * Mt - a3 * MBL;
-    const Expression Xi33 = a3 * M1_ + a3 * Mt + T_d * R_;
-    lmi.require(symmetric_block<Scalar>({{Xi11},
-                                         {Xi21, Xi22},
-                                         {Xi31, Xi32, Xi33},
-                                         {row, a2 * row, a3 * row, -(g_ * identity<Scalar>(column_.columns()))}}) < 0);
+    const Expression MA = M1_ * e.A, MBL = M1_ * (Expression(e.B) * e.L), MC = transpose(M1_ * column_);
+    const Expression Xi = reduced_block<Scalar>(e, P_here, Q_, R_, MA, MBL, transpose(M1_), S_ + rate);
+    const Expression row = block<Scalar>({{MC, e.a2 * MC, e.a3 * MC}});
+    lmi.require(symmetric_block<Scalar>({{Xi}, {row, -(g_ * identity<Scalar>(column_.columns()))}}) < 0);
     lmi.require(P_here > 0);
   }
 
   /// @param gains  L where it is largest
-  [[nodiscard]] ErrorBound<Scalar> solve(std::span<const std::array<Ball<Scalar>, 2>> gains) {
+  [[nodiscard]] ErrorBound<Scalar> solve(std::span<const Row2<Ball<Scalar>>> gains) {
     lmi.require(Q_ > 0);
     lmi.require(R_ > 0);
     lmi.minimise(g_);
@@ -113,8 +104,8 @@ class BoundProblem {
     const auto least = [&](const Ball<Scalar>& L) { return exact(L) ? abs(L).centre() : L.least_magnitude(); };
     Scalar longest{0}, shortest{0};
     for (const auto& L : gains) {
-      longest = std::max<Scalar>(longest, length_of<Scalar>(most(L[0]), most(L[1])));
-      shortest = std::max<Scalar>(shortest, length_of<Scalar>(least(L[0]), least(L[1])));
+      longest = std::max<Scalar>(longest, length_of<Scalar>(most(L.first), most(L.second)));
+      shortest = std::max<Scalar>(shortest, length_of<Scalar>(least(L.first), least(L.second)));
     }
     const bool printed = entry_ == DisturbanceEntry::printed;
     const auto root = [&](const Scalar& g) { return printed ? Scalar(sqrt(g) / m_) : Scalar(sqrt(g) / (m_ * d_)); };
@@ -149,7 +140,7 @@ template <Real Scalar>
   for (const Tissue<Scalar>& tissue : tissues) {
     problem.require({design, tissue, L, Coordinates::scaled, d}, problem.P, zero<Scalar>(2, 2));
   }
-  const std::array<Ball<Scalar>, 2> exact{L[0], L[1]};
+  const detail::Row2<Ball<Scalar>> exact{L[0], L[1]};
   return problem.solve({&exact, 1});
 }
 template <Real Scalar>
@@ -167,7 +158,7 @@ template <Real Scalar>
                                                       DisturbanceEntry entry = DisturbanceEntry::through_input) {
   using Expression = LmiExpression<Scalar>;
   detail::check_theorem5(design, box, rates);
-  const Scalar d = natural_frequency(design, box.centre());
+  const Scalar d = detail::time_scale(design, box.centre());
   detail::BoundProblem<Scalar> problem(design, d, entry);
   const auto slope = [&](const char* name, const Scalar& lower, const Scalar& upper) {
     return lower < upper ? problem.lmi.symmetric(name, 2) : zero<Scalar>(2, 2);
@@ -176,7 +167,7 @@ template <Real Scalar>
   const Expression P2 = slope("P2", box.lower.damping, box.upper.damping);
   const auto rate1 = detail::rate_by_half_width(rates.stiffness, box.lower.stiffness, box.upper.stiffness, d);
   const auto rate2 = detail::rate_by_half_width(rates.damping, box.lower.damping, box.upper.damping, d);
-  std::vector<std::array<Ball<Scalar>, 2>> gains;
+  std::vector<detail::Row2<Ball<Scalar>>> gains;
   for (const BoxCorner& at : box_corners) {
     const Tissue<Scalar> rho = tissue_at(box, at);
     expect(is_finite(L(rho)), "theorem5_error_bound: L", "finite", L(rho));

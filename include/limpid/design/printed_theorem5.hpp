@@ -3,24 +3,11 @@
 
 #include <limpid/design/printed_theorems.hpp>
 
-#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace limpid {
-
-/// A corner of a box, as (rho - centre)/half width in {-1, 1}^2.
-struct BoxCorner {
-  int stiffness = 0, damping = 0;
-};
-inline constexpr std::array<BoxCorner, 4> box_corners{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
-
-template <Real Scalar>
-[[nodiscard]] Tissue<Scalar> tissue_at(const TissueBox<Scalar>& box, const BoxCorner& corner) {
-  return {corner.stiffness < 0 ? box.lower.stiffness : box.upper.stiffness,
-          corner.damping < 0 ? box.lower.damping : box.upper.damping};
-}
 
 /// Theorem 5, (4.51), with P and Y affine in rho. Off line: allocates.
 ///
@@ -44,39 +31,11 @@ struct PrintedTheorem5 {
 
   /// L(rho) = Y(rho) X'^-1.
   [[nodiscard]] AffineGain<Scalar> gain(const LmiResult<Scalar>& result) const {
-    const Tissue<Scalar> middle = box.centre();
-    const Scalar k = (box.upper.stiffness - box.lower.stiffness) / Scalar{2};
-    const Scalar b = (box.upper.damping - box.lower.damping) / Scalar{2};
-    AffineGain<Scalar> L;
-    L.L0 = at_centre.gain(result);
-    if (k > Scalar{0}) L.L1 = at_centre.gain(result, Y1) / k;
-    if (b > Scalar{0}) L.L2 = at_centre.gain(result, Y2) / b;
-    L.L0 -= L.L1 * middle.stiffness + L.L2 * middle.damping;
-    return L;
+    return detail::affine_gain(box, at_centre.gain(result), at_centre.gain(result, Y1), at_centre.gain(result, Y2));
   }
 };
 
 namespace detail {
-
-/// +-|rho_i'|_max dP/drho_i = +-(|rho_i'|_max / half width) P_i, in the time unit of the coordinates.
-template <Real Scalar>
-[[nodiscard]] Ball<Scalar> rate_by_half_width(const Scalar& rate, const Scalar& lower, const Scalar& upper,
-                                              const Scalar& d) {
-  if (!(lower < upper)) return Ball<Scalar>(Scalar{0});
-  return Ball<Scalar>(rate) * Ball<Scalar>(Scalar{2}) / ((Ball<Scalar>(upper) - Ball<Scalar>(lower)) * Ball<Scalar>(d));
-}
-
-/// L(rho) of the six numbers as they are: it may be much smaller than they are. A constant gain is exact.
-template <Real Scalar>
-[[nodiscard]] std::array<Ball<Scalar>, 2> enclosed_gain(const AffineGain<Scalar>& L, const Tissue<Scalar>& rho) {
-  const auto at = [&](int j) {
-    Ball<Scalar> sum(L.L0[j]);
-    if (L.L1[j] != Scalar{0}) sum += Ball<Scalar>(L.L1[j]) * Ball<Scalar>(rho.stiffness);
-    if (L.L2[j] != Scalar{0}) sum += Ball<Scalar>(L.L2[j]) * Ball<Scalar>(rho.damping);
-    return sum;
-  };
-  return {at(0), at(1)};
-}
 
 template <Real Scalar>
 void check_theorem5(const PredictorDesign<Scalar>& design, const TissueBox<Scalar>& box,
@@ -92,7 +51,7 @@ template <Real Scalar>
                                                          Coordinates coordinates) {
   PrintedTheorem<Scalar> at_centre = printed_variables<Scalar>(true);
   at_centre.coordinates = coordinates;
-  at_centre.d = natural_frequency(design, box.centre());
+  at_centre.d = time_scale(design, box.centre());
   at_centre.mass = design.tool.mass;
   auto P1 = zero<Scalar>(2, 2), P2 = P1, Y1 = zero<Scalar>(1, 2), Y2 = Y1;
   if (free_gain) at_centre.Y = at_centre.lmi.full("Y", 1, 2);
@@ -110,7 +69,7 @@ template <Real Scalar>
 }  // namespace detail
 
 /// @param L  the six numbers; none: to be found
-/// @throws std::invalid_argument  where the design, the box or the rates cannot be used
+/// @throws std::invalid_argument  where the design, the box, the rates or the gain cannot be used
 template <Real Scalar>
 [[nodiscard]] PrintedTheorem5<Scalar> printed_theorem5(const PredictorDesign<Scalar>& design,
                                                        const TissueBox<Scalar>& box, const TissueRates<Scalar>& rates,
@@ -118,6 +77,7 @@ template <Real Scalar>
                                                        Coordinates coordinates = Coordinates::scaled) {
   using Expression = LmiExpression<Scalar>;
   detail::check_theorem5(design, box, rates);
+  if (L) L->check();
   auto theorem = detail::theorem5_variables(design, box, !L, coordinates);
   PrintedTheorem<Scalar>& v = theorem.at_centre;
   const Scalar unit = coordinates == Coordinates::scaled ? v.d : Scalar{1};
@@ -127,7 +87,7 @@ template <Real Scalar>
       detail::rate_by_half_width(rates.damping, box.lower.damping, box.upper.damping, unit) * theorem.P2;
   for (const BoxCorner& corner : box_corners) {
     const Tissue<Scalar> rho = tissue_at(box, corner);
-    const auto gain = L ? detail::enclosed_gain(*L, rho) : std::array<Ball<Scalar>, 2>{};
+    const auto gain = L ? detail::enclosed_gain(*L, rho) : detail::Row2<Ball<Scalar>>{};
     const ErrorDynamics<Scalar> e(design, rho, gain, coordinates, v.d);
     const Expression Y = L ? Expression(e.L) * transpose(v.X) : theorem.Y(corner);
     for (const BoxCorner& sign : box_corners) {

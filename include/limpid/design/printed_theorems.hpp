@@ -4,11 +4,10 @@
 #include <limpid/design/ball.hpp>
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/lmi.hpp>
+#include <limpid/design/scaled_point.hpp>
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,31 +37,25 @@ struct ErrorDynamics {
   /// @param d     of the scaled coordinates, 1/s; any number > 0 will do, so that its own rounding does not matter
   ErrorDynamics(const PredictorDesign<Scalar>& design, const Tissue<Scalar>& tissue, const Gain<Scalar>& gain,
                 Coordinates coordinates, const Scalar& d)
-      : ErrorDynamics(design, tissue, std::array{Number(gain[0]), Number(gain[1])}, coordinates, d) {}
+      : ErrorDynamics(design, tissue, detail::Row2<Number>{gain[0], gain[1]}, coordinates, d) {}
 
   /// @param gain  within these
-  ErrorDynamics(const PredictorDesign<Scalar>& design, const Tissue<Scalar>& tissue, const std::array<Number, 2>& gain,
-                Coordinates coordinates, const Scalar& d)
-      : a2(design.a2) {
-    const Number m(design.tool.mass), k = Number(design.tool.stiffness) + Number(tissue.stiffness);
-    const Number b = Number(design.tool.damping) + Number(tissue.damping), zero(0), one(1);
+  ErrorDynamics(const PredictorDesign<Scalar>& design, const Tissue<Scalar>& tissue, const detail::Row2<Number>& gain,
+                Coordinates coordinates, const Scalar& d) {
+    const Number one(1);
     const bool scaled = coordinates == Coordinates::scaled;
-    const Number D(scaled ? d : Scalar{1});
-    A << zero, one, -(k / (m * D * D)), -(b / (m * D));  // A' = D^-1 A D / d
-    B << zero, scaled ? one : one / m;
-    const Number unit = scaled ? m * D * D : one;  // L' = L D / (m d^2)
-    L << gain[0] / unit, gain[1] * D / unit;
-    T_d = D * Number(design.T_d);
-    a3 = D * Number(design.a3);
+    const Scalar unit = scaled ? d : Scalar{1};  // A' and T_d' are A and T_d where d = 1
+    const auto A_ = detail::scale_dynamics<Number>(design, tissue, unit);
+    const auto L_ = scaled ? detail::scale_gain(design, gain, unit) : gain;
+    const auto s = detail::scale_design<Number>(design, unit);
+    A << A_.a11, A_.a12, A_.a21, A_.a22;
+    B << Number(0), scaled ? one : one / Number(design.tool.mass);
+    L << L_.first, L_.second;
+    T_d = s.T;
+    a2 = s.a2;
+    a3 = s.a3;
   }
 };
-
-/// d of the scaled coordinates.
-template <Real Scalar>
-[[nodiscard]] Scalar natural_frequency(const PredictorDesign<Scalar>& design, const Tissue<Scalar>& tissue) {
-  using std::sqrt;
-  return sqrt((design.tool.stiffness + tissue.stiffness) / design.tool.mass);
-}
 
 /// Theorem 2, 3 or 5 as printed, unreduced: for comparison, for margins and for bounds. To decide feasibility alone,
 /// theorem3.hpp and theorem5.hpp have smaller problems with the same verdict.
@@ -82,14 +75,8 @@ struct PrintedTheorem {
   /// L = Y X'^-1, in raw units.
   [[nodiscard]] Gain<Scalar> gain(const LmiResult<Scalar>& result) const { return gain(result, Y); }
   [[nodiscard]] Gain<Scalar> gain(const LmiResult<Scalar>& result, const Expression& of) const {
-    const Eigen::Matrix<Scalar, 2, 2> X_value = result[X];
-    const Eigen::Matrix<Scalar, 1, 2> Y_value = result[of];
-    const Scalar determinant = X_value(0, 0) * X_value(1, 1) - X_value(0, 1) * X_value(1, 0);
-    Gain<Scalar> L(X_value(1, 1) * Y_value[0] - X_value(0, 1) * Y_value[1],
-                   X_value(0, 0) * Y_value[1] - X_value(1, 0) * Y_value[0]);
-    L /= determinant;
-    if (coordinates == Coordinates::scaled) L = Gain<Scalar>(L[0] * mass * d * d, L[1] * mass * d);
-    return L;
+    const bool scaled = coordinates == Coordinates::scaled;
+    return detail::gain_of<Scalar>(result[X], result[of], scaled ? mass : Scalar{1}, scaled ? d : Scalar{1});
   }
 };
 
@@ -157,7 +144,7 @@ template <Real Scalar>
     design.check(tissue);
     centre.stiffness += tissue.stiffness / Scalar(tissues.size());
   }
-  return natural_frequency(design, centre);
+  return time_scale(design, centre);
 }
 
 /// (4.17) or (4.31) at each tissue, with common variables; one L for all, free where none is given.

@@ -5,21 +5,22 @@
 
 namespace limpid::detail {
 
-/// The left side of (4.17) and (4.51) with N at its optimum, and without S and gamma: 6 x 6, barred.
+/// The left side of (4.17) and (4.51) with N at its optimum, and without S and gamma: 6 x 6.
 ///
 /// N_1 = -R/T_d, N_2 = R/T_d, N_3 = 0 minimise N Pi + Pi'N' + T_d N R^-1 N', Pi = [I -I 0], in the order of matrices:
 /// the square is completed, and -Pi'R Pi/T_d is left. S > 0 and gamma > 0 may be as small as a strict inequality lets
 /// them.
-/// @param rate  sum +-|rho_i'|_max dP/drho_i
+/// @param AX, BY, X  barred A X', B Y, X; as they are M_1 A, M_1 B L, M_1'
+/// @param more       what else Phi_11 has: sum +-|rho_i'|_max dP/drho_i, and S
 template <Real Scalar>
-[[nodiscard]] LmiExpression<Scalar> reduced_matrix(const ErrorDynamics<Scalar>& e, const LmiExpression<Scalar>& P,
-                                                   const LmiExpression<Scalar>& Q, const LmiExpression<Scalar>& R,
-                                                   const LmiExpression<Scalar>& X, const LmiExpression<Scalar>& Y,
-                                                   const LmiExpression<Scalar>& rate) {
+[[nodiscard]] LmiExpression<Scalar> reduced_block(const ErrorDynamics<Scalar>& e, const LmiExpression<Scalar>& P,
+                                                  const LmiExpression<Scalar>& Q, const LmiExpression<Scalar>& R,
+                                                  const LmiExpression<Scalar>& AX, const LmiExpression<Scalar>& BY,
+                                                  const LmiExpression<Scalar>& X, const LmiExpression<Scalar>& more) {
   using Expression = LmiExpression<Scalar>;
   const auto& [A, B, L, T_d, a2, a3] = e;
-  const Expression AX = A * transpose(X), BY = B * Y, by_T = (Ball<Scalar>(Scalar{1}) / T_d) * R;
-  const Expression Phi11 = Q - by_T - AX - transpose(AX) + rate;
+  const Expression by_T = (Ball<Scalar>(Scalar{1}) / T_d) * R;
+  const Expression Phi11 = Q - by_T - AX - transpose(AX) + more;
   const Expression Phi21 = by_T - a2 * AX - transpose(BY);
   const Expression Phi22 = -Q - by_T - a2 * BY - a2 * transpose(BY);
   const Expression Phi31 = P - a3 * AX + X;
@@ -28,12 +29,14 @@ template <Real Scalar>
   return symmetric_block<Scalar>({{Phi11}, {Phi21, Phi22}, {Phi31, Phi32, Phi33}});
 }
 
-/// L = Y X'^-1, from the scaled coordinates to raw units.
+/// Barred.
+/// @param rate  sum +-|rho_i'|_max dP/drho_i
 template <Real Scalar>
-[[nodiscard]] Gain<Scalar> gain_of(const Eigen::Matrix<Scalar, 2, 2>& X, const Eigen::Matrix<Scalar, 1, 2>& Y,
-                                   const Scalar& mass, const Scalar& d) {
-  const Scalar unit = mass * d / (X(0, 0) * X(1, 1) - X(0, 1) * X(1, 0));
-  return {(X(1, 1) * Y[0] - X(0, 1) * Y[1]) * unit * d, (X(0, 0) * Y[1] - X(1, 0) * Y[0]) * unit};
+[[nodiscard]] LmiExpression<Scalar> reduced_matrix(const ErrorDynamics<Scalar>& e, const LmiExpression<Scalar>& P,
+                                                   const LmiExpression<Scalar>& Q, const LmiExpression<Scalar>& R,
+                                                   const LmiExpression<Scalar>& X, const LmiExpression<Scalar>& Y,
+                                                   const LmiExpression<Scalar>& rate) {
+  return reduced_block<Scalar>(e, P, Q, R, e.A * transpose(X), e.B * Y, X, rate);
 }
 
 }  // namespace limpid::detail

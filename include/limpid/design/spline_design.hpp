@@ -17,13 +17,24 @@
 
 namespace limpid {
 
+/// What proves a spline feasible: the variables of (4.51), barred, in the coordinates of scaled_point.hpp.
+template <Real Scalar = double>
+struct SplineCertificate {
+  using Matrix = Eigen::Matrix<Scalar, 2, 2>;
+
+  std::vector<Matrix> P{};  ///< at each node of the knots, bilinear between them
+  Matrix Q = Matrix::Zero(), R = Matrix::Zero(), X = Matrix::Zero();
+  Scalar d{0};  ///< of the coordinates, 1/s
+};
+
 template <Real Scalar = double>
 struct SplineDesign {
   Verdict verdict = Verdict::undecided;  ///< feasible: proved for `gain` as it stands, rounded
   GainSpline<Scalar> gain{};             ///< where feasible
   int iterations = 0;
   std::string reason{};
-  LmiMultipliers<Scalar> multipliers{};  ///< where infeasible: the proof, of `SplineLmi`'s inequalities
+  LmiMultipliers<Scalar> multipliers{};     ///< where infeasible: the proof, of `SplineLmi`'s inequalities
+  SplineCertificate<Scalar> certificate{};  ///< where feasible: the proof
 };
 
 namespace detail {
@@ -47,7 +58,7 @@ class SplineLmi {
   /// @param given  a gain to verify; none: Y is free
   SplineLmi(const PredictorDesign<Scalar>& design, const KnotGrid<Scalar>& knots, const TissueRates<Scalar>& rates,
             const GainSpline<Scalar>* given)
-      : design_{design}, knots_{knots}, d_{natural_frequency(design, knots.box().centre())} {
+      : design_{design}, knots_{knots}, d_{time_scale(design, knots.box().centre())} {
     for (int node = 0; node < knots.nodes(); ++node) {
       P_.push_back(lmi_.symmetric("P" + std::to_string(node), 2));
     }
@@ -71,6 +82,12 @@ class SplineLmi {
     GainSpline<Scalar> gain{knots_, {}};
     for (const Expression& Y : Y_) gain.L.push_back(gain_of<Scalar>(result[X_], result[Y], design_.tool.mass, d_));
     return gain;
+  }
+
+  [[nodiscard]] SplineCertificate<Scalar> certificate(const LmiResult<Scalar>& result) const {
+    SplineCertificate<Scalar> certificate{{}, result[Q_], result[R_], result[X_], d_};
+    for (const Expression& P : P_) certificate.P.push_back(result[P]);
+    return certificate;
   }
 
   /// Of an Lmi with Y free, the unknowns of one with Y given, which come in the same order but for Y.
@@ -125,8 +142,11 @@ template <Real Scalar>
                                                  const TissueRates<Scalar>& rates) {
   gain.check();
   detail::check_theorem5(design, gain.knots.box(), rates);
-  const LmiResult<Scalar> result = detail::SplineLmi<Scalar>(design, gain.knots, rates, &gain).lmi().solve();
-  return {result.verdict, gain, result.iterations, result.reason, result.multipliers};
+  const detail::SplineLmi<Scalar> given(design, gain.knots, rates, &gain);
+  const LmiResult<Scalar> found = given.lmi().solve();
+  SplineDesign<Scalar> result{found.verdict, gain, found.iterations, found.reason, found.multipliers, {}};
+  if (found.feasible()) result.certificate = given.certificate(found);
+  return result;
 }
 
 /// A gain by Theorem 5 on a grid of knots: feasible in more cases than an affine one, which 2 x 2 knots include.
@@ -141,9 +161,10 @@ template <Real Scalar>
   detail::check_theorem5(design, knots.box(), rates);
   const detail::SplineLmi<Scalar> free(design, knots, rates, nullptr);
   const LmiResult<Scalar> found = free.lmi().solve();
-  SplineDesign<Scalar> result{found.verdict, {}, found.iterations, found.reason, found.multipliers};
+  SplineDesign<Scalar> result{found.verdict, {}, found.iterations, found.reason, found.multipliers, {}};
   if (!found.feasible()) return result;
   result.gain = free.gain(found);
+  result.certificate = free.certificate(found);
   // The gain was rounded: prove it again, at the same P, Q, R and X.
   const detail::SplineLmi<Scalar> given(design, knots, rates, &result.gain);
   if (certifies_feasible(given.lmi().problem(), free.without_gain(found.unknowns), Scalar{0})) return result;

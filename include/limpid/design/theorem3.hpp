@@ -6,7 +6,6 @@
 #include <limpid/design/design_point.hpp>
 #include <limpid/design/fixed_gain_lmi.hpp>
 
-#include <array>
 #include <span>
 #include <string_view>
 
@@ -32,11 +31,6 @@ struct Theorem3Verdict {
 };
 
 namespace detail {
-
-template <Real Scalar>
-void check_gain(const Gain<Scalar>& L) {
-  expect(is_finite(L), "Gain: L", "finite", L);
-}
 
 template <int tissues, Real Scalar>
 [[nodiscard]] bool holds(const FixedGainLmi<Scalar, tissues>& lmi, const Theorem3Certificate<Scalar, tissues>& known) {
@@ -81,7 +75,7 @@ template <int tissues, Real Scalar>
     const PredictorDesign<Scalar>& design, std::span<const Tissue<Scalar>> points, const Tissue<Scalar>& centre,
     const Gain<Scalar>& L, const Theorem3Certificate<Scalar, tissues>* neighbour) {
   for (const auto& tissue : points) design.check(tissue);
-  check_gain(L);
+  expect(is_finite(L), "Gain: L", "finite", L);
   const Scalar d = time_scale(design, centre);
   const auto make_lmi = [&]<typename S, int count>() { return FixedGainLmi<S, count>(design, points, L, d); };
   Theorem3Verdict<Scalar, tissues> result;
@@ -93,11 +87,6 @@ template <int tissues, Real Scalar>
   }
   decide_fixed_gain<Scalar>(make_lmi, result);
   return result;
-}
-
-template <Real Scalar>
-[[nodiscard]] std::array<Tissue<Scalar>, 4> vertices(const TissueBox<Scalar>& box) {
-  return {box.lower, {box.upper.stiffness, box.lower.damping}, {box.lower.stiffness, box.upper.damping}, box.upper};
 }
 
 template <Real Scalar>

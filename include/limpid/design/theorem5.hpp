@@ -109,7 +109,7 @@ template <Real Scalar>
                                                           const TissueBox<Scalar>& box,
                                                           const TissueRates<Scalar>& rates,
                                                           const AffineGain<Scalar>& L) {
-  for (const auto& row : {L.L0, L.L1, L.L2}) detail::check_gain(row);
+  L.check();
   ScheduledGainDesign<Scalar> result;
   result.gain = L;
   detail::decide_scheduled<Scalar, true>(detail::scheduled_case(design, box, rates), result);
