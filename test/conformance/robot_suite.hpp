@@ -61,7 +61,7 @@ class RobotSuite {
     const Joints q = inside(), qdot = rates();
     const JointMatrix<R> H = at(q).H(theta_), C = at(q).C(theta_, qdot), B = at(q).B(theta_);
     const JointMatrix<R> Hdot = derivative([&](const Scalar& s) { return JointMatrix<R>(at(q + qdot * s).H(theta_)); });
-    check_near(H, JointMatrix<R>(H.transpose()), Scalar(0));
+    CHECK((H.array() == H.transpose().array()).all());
     CHECK(Eigen::LLT<JointMatrix<R>>(H).info() == Eigen::Success);
     check_near(Hdot, JointMatrix<R>(C + C.transpose()), coarse_);
     CHECK((B.diagonal().array() >= Scalar(0)).all());
