@@ -129,6 +129,7 @@
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/fault_reason.hpp>
 #include <limpid/control/omni_safety.hpp>
+#include <limpid/control/q_filter.hpp>
 #include <limpid/control/safe_torque.hpp>
 #include <limpid/control/safety_limiter.hpp>
 #include <limpid/control/safety_traits.hpp>
