@@ -127,7 +127,9 @@
 #include <limpid/robot/robot.hpp>
 
 #include <limpid/control/computed_torque.hpp>
+#include <limpid/control/disturbance_observer.hpp>
 #include <limpid/control/fault_reason.hpp>
+#include <limpid/control/observer_step.hpp>
 #include <limpid/control/omni_safety.hpp>
 #include <limpid/control/q_filter.hpp>
 #include <limpid/control/safe_torque.hpp>
