@@ -13,7 +13,7 @@ set(control_may_include signal robot)
 set(loop_may_include "")
 set(device_may_include signal robot control) # of control, what reaches the motors: SafeTorque
 set(evaluation_may_include "")
-set(design_may_include environment signal prediction) # of prediction, the gains
+set(design_may_include environment signal prediction control) # of prediction, the gains; of control, the observers
 set(scene_may_include signal environment estimation prediction robot control loop device evaluation)
 
 set(broken "")

@@ -89,6 +89,7 @@
 #include <limpid/design/map.hpp>
 #include <limpid/design/margin_problem.hpp>
 #include <limpid/design/mean_value_form.hpp>
+#include <limpid/design/observer_stability.hpp>
 #include <limpid/design/pack.hpp>
 #include <limpid/design/predictor_bounds.hpp>
 #include <limpid/design/predictor_margin.hpp>
