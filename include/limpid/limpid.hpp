@@ -119,6 +119,8 @@
 #include <limpid/design/theorem5.hpp>
 #include <limpid/design/verified_cholesky.hpp>
 
+#include <limpid/robot/five_bar.hpp>
+#include <limpid/robot/five_bar_pose.hpp>
 #include <limpid/robot/inverse_kinematics.hpp>
 #include <limpid/robot/joint_state.hpp>
 #include <limpid/robot/omni.hpp>

@@ -98,7 +98,7 @@ concept RobotPose = requires(const P pose, const JointVector<R> rate, const Robo
   { pose.adaptation_direction(rate, rate, rate, rate) } -> std::convertible_to<RobotParameters<R>>;
 };
 
-/// A serial arm whose dynamics are linear in constant parameters. Model: Omni.
+/// An arm whose dynamics are linear in constant parameters. Models: Omni, FiveBar.
 template <typename R>
 concept Robot = Real<RobotScalar<R>> && requires(const R robot, const JointVector<R> q) {
   { RobotTraits<R>::at(robot, q) } -> RobotPose<R>;
