@@ -120,6 +120,7 @@
 #include <limpid/design/verified_cholesky.hpp>
 
 #include <limpid/robot/five_bar.hpp>
+#include <limpid/robot/five_bar_kinematics.hpp>
 #include <limpid/robot/five_bar_pose.hpp>
 #include <limpid/robot/inverse_kinematics.hpp>
 #include <limpid/robot/joint_state.hpp>

@@ -58,7 +58,7 @@ struct InverseKinematicsTraits<K> {
 /// Laws: inside the limits the robot's tip at q is x, and q', q'' reproduce v and a by (3.7), (3.10), with status ok.
 /// Singular targets, and those that the joints cannot reach within their limits, give joints within the limits near the
 /// target with bounded rates, and say so; non-finite targets give `near` at rest. The answer is always finite; nothing
-/// throws or allocates. Model: OmniKinematics.
+/// throws or allocates. Models: OmniKinematics, FiveBarKinematics.
 template <typename K, typename Traits = InverseKinematicsTraits<K>>
 concept InverseKinematics = Real<typename Traits::Scalar> &&
     requires(const K k, const Eigen::Matrix<typename Traits::Scalar, 3, 1> point,
