@@ -119,6 +119,8 @@
 #include <limpid/design/theorem5.hpp>
 #include <limpid/design/verified_cholesky.hpp>
 
+#include <limpid/robot/acceleration_field.hpp>
+#include <limpid/robot/body_inertia.hpp>
 #include <limpid/robot/cartesian_dynamics.hpp>
 #include <limpid/robot/five_bar.hpp>
 #include <limpid/robot/five_bar_kinematics.hpp>
