@@ -122,6 +122,7 @@
 #include <limpid/robot/acceleration_field.hpp>
 #include <limpid/robot/body_inertia.hpp>
 #include <limpid/robot/cartesian_dynamics.hpp>
+#include <limpid/robot/denavit_hartenberg.hpp>
 #include <limpid/robot/five_bar.hpp>
 #include <limpid/robot/five_bar_kinematics.hpp>
 #include <limpid/robot/five_bar_pose.hpp>
@@ -132,6 +133,8 @@
 #include <limpid/robot/omni_kinematics.hpp>
 #include <limpid/robot/omni_pose.hpp>
 #include <limpid/robot/robot.hpp>
+#include <limpid/robot/serial_chain.hpp>
+#include <limpid/robot/serial_chain_pose.hpp>
 
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/disturbance_observer.hpp>
