@@ -122,6 +122,8 @@
 #include <limpid/robot/acceleration_field.hpp>
 #include <limpid/robot/body_inertia.hpp>
 #include <limpid/robot/cartesian_dynamics.hpp>
+#include <limpid/robot/chain_kinematics.hpp>
+#include <limpid/robot/damped_inverse.hpp>
 #include <limpid/robot/denavit_hartenberg.hpp>
 #include <limpid/robot/five_bar.hpp>
 #include <limpid/robot/five_bar_kinematics.hpp>
