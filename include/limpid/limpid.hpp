@@ -72,6 +72,7 @@
 #include <limpid/design/gain_spline.hpp>
 #include <limpid/design/gain_vertices.hpp>
 #include <limpid/design/grid.hpp>
+#include <limpid/design/haptic_wall.hpp>
 #include <limpid/design/interior_point.hpp>
 #include <limpid/design/lanczos_reach.hpp>
 #include <limpid/design/largest_box.hpp>
@@ -104,6 +105,9 @@
 #include <limpid/design/sampled_proof.hpp>
 #include <limpid/design/sampled_stability.hpp>
 #include <limpid/design/sampled_varying.hpp>
+#include <limpid/design/sampled_wall.hpp>
+#include <limpid/design/sampled_wall_interval.hpp>
+#include <limpid/design/sampled_wall_proof.hpp>
 #include <limpid/design/sampled_worst.hpp>
 #include <limpid/design/scaled_lmi.hpp>
 #include <limpid/design/scaled_point.hpp>
