@@ -92,6 +92,7 @@
 #include <limpid/design/mean_value_form.hpp>
 #include <limpid/design/observer_stability.hpp>
 #include <limpid/design/pack.hpp>
+#include <limpid/design/passivity_limits.hpp>
 #include <limpid/design/predictor_bounds.hpp>
 #include <limpid/design/predictor_margin.hpp>
 #include <limpid/design/primal_dual_method.hpp>
