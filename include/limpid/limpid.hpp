@@ -123,6 +123,7 @@
 #include <limpid/design/theorem3_design.hpp>
 #include <limpid/design/theorem5.hpp>
 #include <limpid/design/verified_cholesky.hpp>
+#include <limpid/design/virtual_coupling_design.hpp>
 
 #include <limpid/robot/acceleration_field.hpp>
 #include <limpid/robot/body_inertia.hpp>
@@ -155,6 +156,7 @@
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/control/torque_set.hpp>
 #include <limpid/control/tracking_law.hpp>
+#include <limpid/control/virtual_coupling.hpp>
 
 #include <limpid/device/haptic_device.hpp>
 #include <limpid/device/recording.hpp>
