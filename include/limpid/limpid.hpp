@@ -149,6 +149,7 @@
 #include <limpid/control/fault_reason.hpp>
 #include <limpid/control/observer_step.hpp>
 #include <limpid/control/omni_safety.hpp>
+#include <limpid/control/passivity_controller.hpp>
 #include <limpid/control/q_filter.hpp>
 #include <limpid/control/safe_torque.hpp>
 #include <limpid/control/safety_limiter.hpp>
