@@ -26,6 +26,7 @@
 #include <limpid/environment/fixed.hpp>
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/operator_hand.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/tangent_model.hpp>
 #include <limpid/environment/tool.hpp>
