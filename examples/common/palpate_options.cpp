@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "palpate_options.hpp"
 
+#include "number_list.hpp"
 #include "output_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -18,7 +19,7 @@ namespace {
 struct Typed {
   std::string force_file, environment = "kelvin-voigt", robot = "ideal", json, csv, plot;
   std::vector<double> raised_cosine, sine, stiffness, tool{0.1, 0.1, 0}, gain{0, 0}, start;
-  std::vector<std::string> predictors{"all"};
+  std::vector<std::string> predictors{"all"}, person{"force"};
   double force_scale = 1, depth = 0.0028, sharpness = 20, exponent = 1.3, damping = 30;
   double sample_period = 0.1, delay = 0, duration = 20, rate = 1000;
   bool known = false, unilateral = false, playback = false;
@@ -66,6 +67,11 @@ void add_options(CLI::App& app, Typed& typed) {
   for (CLI::Option* shape : {cosine, sine}) shape->delimiter(',')->expected(2)->check(any);
   cosine->excludes(file);
   sine->excludes(file)->excludes(cosine);
+
+  app.add_option("--operator", typed.person,
+                 "force: as given, whatever the tip does; or hand M,B,K: it is the intention of a hand, kg, N s/m, N/m")
+      ->expected(1, 2)
+      ->type_name("force|hand M,B,K");
 
   app.add_option("--environment", typed.environment, "the tissue")
       ->check(CLI::IsMember({"kelvin-voigt", "smooth-bilinear", "hunt-crossley"}));
@@ -137,6 +143,25 @@ void refuse_strangers(const CLI::App& app, const Typed& typed) {
     outputs.push_back(path);
   }
   if (typed.known && !typed.start.empty()) refuse("--start", "accepts nothing with --known: nothing is estimated");
+}
+
+std::optional<HandModel> hand_of(const Typed& typed) {
+  if (typed.person.size() == 1 && typed.person[0] == "force") return {};
+  const auto numbers = typed.person.size() == 2 && typed.person[0] == "hand" ? numbers_of(typed.person[1], ",,")
+                                                                             : std::optional<std::vector<double>>{};
+  if (!numbers) refuse("--operator", "accepts force, or hand M,B,K");
+  const HandModel hand{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  if (hand.mass < 1e-3 || hand.mass > 1e3) {
+    refuse("--operator", "accepts a mass in [0.001, 1000], got " + text(hand.mass));
+  }
+  if (hand.damping < 0 || hand.damping > 1e4) {
+    refuse("--operator", "accepts a damping in [0, 1e4], got " + text(hand.damping));
+  }
+  if (hand.stiffness < 0 || hand.stiffness > 1e6) {
+    refuse("--operator", "accepts a stiffness in [0, 1e6], got " + text(hand.stiffness));
+  }
+  if (typed.playback) refuse("--playback", "goes with --operator force: a hand holds the arm");
+  return hand;
 }
 
 Tissue tissue_of(const Typed& typed) {
@@ -235,6 +260,7 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
     refuse("--duration", "accepts more than the sample period and the delay together");
   }
   scene.robot = typed.robot == "ideal" ? RobotKind::ideal : RobotKind::realistic;
+  scene.hand = hand_of(typed);
   scene.playback = typed.playback;
   return scene;
 }

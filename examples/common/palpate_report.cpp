@@ -111,6 +111,7 @@ Json settings_of(const Scene& scene) {
     json["sharpness"] = tissue.sharpness;
   }
   if (tissue.kind == TissueKind::hunt_crossley) json["exponent"] = tissue.exponent;
+  json["operator"] = scene.hand ? "hand" : "force";
   if (!scene.estimation.known) json["start"] = {scene.estimation.stiffness, scene.estimation.damping};
   return json;
 }
@@ -129,6 +130,14 @@ Json ticks(const LatencyHistogram& tick) {
           {"max", tick.max().count()}};
 }
 
+Json energies(const HandEnergy<>& energy) {
+  return {{"work", energy.work},
+          {"kinetic", energy.kinetic},
+          {"elastic", energy.elastic},
+          {"dissipated", energy.dissipated},
+          {"delivered", energy.delivered}};
+}
+
 Json changes(const PalpationResult& result, const PalpationResult& hold) {
   const Norms<> prediction = result.prediction.total(), held = hold.prediction.total();
   const Norms<> total = result.total.total(), held_total = hold.total.total();
@@ -139,7 +148,12 @@ Json changes(const PalpationResult& result, const PalpationResult& hold) {
 }
 
 Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
-  Json json{{"settings", settings_of(scene)}, {"predictors", Json::object()}};
+  Json json{{"settings", settings_of(scene)}};
+  if (scene.hand) {
+    json["operator"] = {
+        {"mass", scene.hand->mass}, {"damping", scene.hand->damping}, {"stiffness", scene.hand->stiffness}};
+  }
+  json["predictors"] = Json::object();
   const PalpationResult* hold = hold_of(runs);
   LatencyHistogram all;
   for (const PalpationRun& run : runs) {
@@ -148,6 +162,7 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
     entry["prediction_error"] = norms(result.prediction);
     entry["total_error"] = norms(result.total);
     if (hold != nullptr) entry["change"] = changes(result, *hold);
+    if (scene.hand) entry["energy"] = energies(result.energy);
     entry["tick_ns"] = ticks(result.tick);
     entry["status"] = describe(result.status);
     entry["fault"] = has(result.status, Status::fault);
@@ -157,11 +172,13 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
   return json;
 }
 
-std::string as_csv(const std::vector<PalpationRun>& runs) {
+// With a hand the force and the tool under it are each predictor's own.
+std::string as_csv(const Scene& scene, const std::vector<PalpationRun>& runs) {
   std::ostringstream out;
   out.precision(12);
-  out << "time_s,force_N,ideal_m";
+  out << (scene.hand ? "time_s,intention_N" : "time_s,force_N,ideal_m");
   for (const PalpationRun& run : runs) {
+    if (scene.hand) out << ',' << name(run.predictor) << "_force_N," << name(run.predictor) << "_ideal_m";
     for (const char* column : {"predicted_m", "tip_m", "prediction_error", "total_error"}) {
       out << ',' << name(run.predictor) << '_' << column;
     }
@@ -169,9 +186,11 @@ std::string as_csv(const std::vector<PalpationRun>& runs) {
   out << '\n';
   for (std::size_t i = 0; i < runs.front().result.trace.size(); ++i) {
     const TracePoint& first = runs.front().result.trace[i];
-    out << first.time << ',' << first.force << ',' << first.ideal;
+    out << first.time << ',' << first.intention;
+    if (!scene.hand) out << ',' << first.ideal;
     for (const PalpationRun& run : runs) {
       const TracePoint& point = run.result.trace[i];
+      if (scene.hand) out << ',' << point.force << ',' << point.ideal;
       out << ',' << point.predicted << ',' << point.tip << ',' << point.prediction_error << ',' << point.total_error;
     }
     out << '\n';
@@ -183,10 +202,14 @@ Chart palpation_chart(const Scene& scene, const std::vector<PalpationRun>& runs)
   const std::vector<TracePoint>& first = runs.front().result.trace;
   Chart chart{text("%s, sampled every %g s, seen %g s later", name(scene.tissue.kind), in_seconds(scene.period),
                    in_seconds(scene.delay)),
-              {{"operator's force", "time (s)", "F_h (N)", {curve("force", first, &TracePoint::force)}},
-               {"motion along the press axis", "time (s)", "x (m)", {curve("virtual tool", first, &TracePoint::ideal)}},
+              {{"operator's force",
+                "time (s)",
+                "F_h (N)",
+                {curve(scene.hand ? "intention" : "force", first, &TracePoint::intention)}},
+               {"motion along the press axis", "time (s)", "x (m)", {}},
                {"prediction error (3.35)", "time (s)", "|e|", {}, true},
                {"total error (3.35)", "time (s)", "|e_tot|", {}, true}}};
+  if (!scene.hand) chart.panels[1].curves.push_back(curve("virtual tool", first, &TracePoint::ideal));
   for (const PalpationRun& run : runs) {
     const std::string who = name(run.predictor);
     const auto add = [&](std::size_t panel, const std::string& title, double TracePoint::*signal) {
@@ -195,6 +218,10 @@ Chart palpation_chart(const Scene& scene, const std::vector<PalpationRun>& runs)
       drawn.dashed = run.predictor == PredictorKind::ideal;
       chart.panels[panel].curves.push_back(std::move(drawn));
     };
+    if (scene.hand) {
+      add(0, who, &TracePoint::force);
+      add(1, "virtual tool, " + who, &TracePoint::ideal);
+    }
     add(1, "tip, " + who, &TracePoint::tip);
     if (run.predictor != PredictorKind::ideal) add(2, who, &TracePoint::prediction_error);
     add(3, who, &TracePoint::total_error);
@@ -208,6 +235,10 @@ void print_table(std::ostream& out, const Scene& scene, const std::vector<Palpat
   out << scene.force.description << " on " << name(scene.tissue.kind) << ", "
       << text("%g s at %g Hz; sampled every %g s, seen %g s later\n", in_seconds(scene.duration),
               1 / in_seconds(scene.tick), in_seconds(scene.period), in_seconds(scene.delay));
+  if (scene.hand) {
+    out << text("intended by a hand of %g kg that grips with %g N s/m and %g N/m\n", scene.hand->mass,
+                scene.hand->damping, scene.hand->stiffness);
+  }
   print_errors(out, "prediction error", runs, &PalpationResult::prediction);
   print_errors(out, "total error", runs, &PalpationResult::total);
   print_ticks(out, runs);
@@ -234,7 +265,7 @@ void write_outputs(std::ostream& out, const PalpateOptions& options, const std::
     out << "figures: " << options.json << '\n';
   }
   if (!options.csv.empty()) {
-    write_file(options.csv, as_csv(runs));
+    write_file(options.csv, as_csv(options.scene, runs));
     out << "signals: " << options.csv << '\n';
   }
   if (!options.plot.empty()) out << "plot: " << draw(palpation_chart(options.scene, runs), options.plot) << '\n';

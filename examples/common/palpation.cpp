@@ -123,6 +123,9 @@ const char* name(PredictorKind kind) {
 }
 
 PalpationResult palpate(const Scene& scene, PredictorKind predictor, const ProgressCallback& progress) {
+  if (scene.hand && scene.playback) {
+    throw std::invalid_argument("Scene: hand: expected none with playback, in which nothing holds the arm");
+  }
   switch (predictor) {
     case PredictorKind::hold:
       return palpate_with_hold(scene, progress);

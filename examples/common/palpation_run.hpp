@@ -2,6 +2,7 @@
 // The run of one loop over one scene, for any set of blocks; included by the sources that compose loops.
 #pragma once
 
+#include "palpation_operator.hpp"
 #include "scene.hpp"
 
 #include <limpid/control/omni_safety.hpp>
@@ -76,14 +77,15 @@ template <int Axes, typename Loop, typename Parameters>
   const Eigen::Vector3d wall = wall_of(scene);
   const Omni<> arm;
   SimulatedOmni<> device = make_device(scene);
+  PalpationOperator person(scene, wall[0]);
   const Duration::rep ticks = scene.duration / scene.tick;
   result.trace.reserve(static_cast<std::size_t>(ticks + 1));
   for (Duration::rep k = 0; k <= ticks; ++k) {
     const Time now = k * scene.tick;
-    const double F_h = scene.force.at(now);
+    const double F_h = person.press(now, device);
     const Eigen::Vector3d hand{F_h, 0, 0}, on_arm{scene.playback ? 0 : F_h, 0, 0};
     const ToolState<3> tool = plant(now, F_h);
-    result.status |= device.advance(now, hand);
+    result.status |= person.status() | device.advance(now, hand);
     const DeviceState<> measured = device.read(now);
 
     const auto started = std::chrono::steady_clock::now();
@@ -104,10 +106,12 @@ template <int Axes, typename Loop, typename Parameters>
     const Eigen::Array3d ep = motion.x - tool.x, ev = motion.v - tool.v, et = tip - tool.x, etv = tip_velocity - tool.v;
     (void)result.prediction.add(now, ep, ev);
     (void)result.total.add(now, et, etv);
-    result.trace.push_back({in_seconds(now), F_h, tool.x[0], motion.x[0], tip[0], std::sqrt((ep * ep + ev * ev).sum()),
-                            std::sqrt((et * et + etv * etv).sum()), parameters(loop), torque.value()});
+    result.trace.push_back({in_seconds(now), scene.force.at(now), F_h, tool.x[0], motion.x[0], tip[0],
+                            std::sqrt((ep * ep + ev * ev).sum()), std::sqrt((et * et + etv * etv).sum()),
+                            parameters(loop), torque.value()});
     if (progress && k % 256 == 0) progress(static_cast<double>(k) / static_cast<double>(ticks));
   }
+  result.energy = person.energy();
   return result;
 }
 

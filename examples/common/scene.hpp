@@ -4,6 +4,7 @@
 #include "press_force.hpp"
 
 #include <limpid/core/time.hpp>
+#include <limpid/environment/operator_hand.hpp>
 #include <limpid/environment/tool.hpp>
 #include <limpid/evaluation/error_norms.hpp>
 #include <limpid/evaluation/latency_histogram.hpp>
@@ -11,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,13 @@ struct Estimation {
 /// L1, L2, or L0, L1, L2 of a scheduled gain, each a pair (position in N/m, velocity in N s/m).
 using PredictorGain = std::vector<double>;
 
+/// A hand that holds the tip along the press axis, and leaves it free across that; its intention is the scene's force.
+struct HandModel {
+  double mass = 0;       ///< M, kg
+  double damping = 0;    ///< B of the grip, N s/m
+  double stiffness = 0;  ///< K of the grip, N/m
+};
+
 /// One palpation: a recorded hand presses a simulated Omni against a slow tissue.
 struct Scene {
   Tissue tissue;
@@ -56,7 +65,8 @@ struct Scene {
   Duration period{};  ///< of the tissue's samples
   Duration delay{};   ///< from taking a sample to seeing it
   RobotKind robot = RobotKind::ideal;
-  bool playback = false;  ///< the operator's force acts on the tissue alone, not on the arm (7.1)
+  std::optional<HandModel> hand;  ///< none: the operator's force is the scene's, whatever the tip does
+  bool playback = false;          ///< the operator's force acts on the tissue alone, not on the arm (7.1)
   Eigen::Vector3d start{0, 0.78539816339744830962, -1.25};  ///< q(0), rad
   /// Section 6.1.4: the tool's spring pulls toward the origin of the base frame, so that y and z move too; they are
   /// sampled and held without prediction, and exact with it.
@@ -65,16 +75,18 @@ struct Scene {
 
 /// Signals of one tick, for curves; N, m, s.
 struct TracePoint {
-  double time, force, ideal, predicted, tip;  ///< the last three along the press axis, from the wall
-  double prediction_error, total_error;       ///< 2-norms of (3.35)
-  Eigen::Array2d parameters;                  ///< k and b (or c) as estimated; zero where nothing is
-  Eigen::Vector3d torque;                     ///< N m, as applied
+  double time, intention, force;         ///< what the operator intends, and does: one, without a hand
+  double ideal, predicted, tip;          ///< along the press axis, from the wall
+  double prediction_error, total_error;  ///< 2-norms of (3.35)
+  Eigen::Array2d parameters;             ///< k and b (or c) as estimated; zero where nothing is
+  Eigen::Vector3d torque;                ///< N m, as applied
 };
 
 /// What one predictor made of a scene.
 struct PalpationResult {
   ErrorNorms<3> prediction, total;
   LatencyHistogram tick;       ///< of the loop's own work, ns
+  HandEnergy<> energy;         ///< of the scene's hand at the end, J
   Status status = Status::ok;  ///< joined over the run, without what the first samples' absence explains
   std::vector<TracePoint> trace;
 };

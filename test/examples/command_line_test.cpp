@@ -41,6 +41,12 @@ TEST_CASE("palpate refuses wrong options and names them") {
   refused("--delay -1", "--delay");
   refused("--delay 9", "--delay");
   refused("--duration 100", "--duration");
+  refused("--operator robot", "--operator");
+  refused("--operator hand", "--operator");
+  refused("--operator hand 0.3,5", "--operator");
+  refused("--operator hand 0,5,300", "--operator");
+  refused("--operator hand 0.3,-5,300", "--operator");
+  refused("--operator force 0.3,5,300", "--operator");
   refused("--unknown 1", "--unknown");
 }
 
@@ -55,6 +61,7 @@ TEST_CASE("palpate refuses options that contradict each other") {
   refused("--predictor hold --known", "--known");
   refused("--predictor hold,ideal --gain 1,2", "--gain");
   refused("--predictor all,hold", "--predictor");
+  refused("--operator hand 0.3,5,300 --playback", "--playback");
 }
 
 TEST_CASE("palpate says where a recording is broken") {
@@ -87,6 +94,27 @@ TEST_CASE("palpate writes the figures of every predictor as JSON") {
     }
   }
   CHECK(json["predictors"]["hold"]["change"]["total_l2"] == 0.0);
+}
+
+TEST_CASE("palpate accounts for the energy of a hand, for every predictor") {
+  const auto path = std::filesystem::temp_directory_path() / "limpid_palpate_hand.json";
+  const ProgramRun result = run("palpate", "--duration 3 --operator hand 0.3,5,300 --json " + path.string());
+  CAPTURE(result.output);
+  REQUIRE(result.code == 0);
+  const nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
+  std::filesystem::remove(path);
+  CHECK(json["settings"]["operator"] == "hand");
+  CHECK(json["operator"]["mass"] == 0.3);
+  CHECK(json["operator"]["damping"] == 5.0);
+  CHECK(json["operator"]["stiffness"] == 300.0);
+  for (const char* predictor : {"hold", "model", "ideal"}) {
+    CAPTURE(predictor);
+    const auto& energy = json["predictors"][predictor]["energy"];
+    double held = 0;
+    for (const char* part : {"kinetic", "elastic", "dissipated", "delivered"}) held += energy[part].get<double>();
+    CHECK(energy["work"].get<double>() > 0);
+    CHECK(held == doctest::Approx(energy["work"].get<double>()).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("palpate draws its plot, or says that gnuplot is absent and writes the curves") {
