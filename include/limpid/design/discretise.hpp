@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
+#include <limpid/core/real.hpp>
+#include <limpid/design/matrix_exponential.hpp>
+#include <limpid/design/state_space.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace limpid {
+
+/// How a continuous system becomes a discrete one.
+enum class Discretisation {
+  zero_order_hold,  ///< exact at the samples for an input that is held between them
+  tustin,           ///< s = (2/T)(z - 1)/(z + 1)
+  backward_euler,   ///< s = (z - 1)/(T z)
+};
+
+/// The discrete system of a continuous one. Off line.
+/// @throws std::invalid_argument  where the system is refused or discrete, the period is not positive and finite, or
+///                                I - A T/2 (Tustin) or I - A T (backward Euler) is singular
+template <Real Scalar>
+[[nodiscard]] StateSpace<Scalar> discretise(const StateSpace<Scalar>& G, const Scalar& period, Discretisation method) {
+  using Matrix = detail::DynamicMatrix<Scalar>;
+  G.check();
+  expect(!G.is_discrete(), "discretise: G", "continuous", G.period);
+  expect(is_finite(period) && period > Scalar{0}, "discretise: period", "finite and > 0", period);
+  const Eigen::Index n = G.order(), m = G.inputs();
+  if (n == 0) return {G.A, G.B, G.C, G.D, period};
+  if (method == Discretisation::zero_order_hold) {
+    // exp([[A, B], [0, 0]] T) = [[A_d, B_d], [0, I]]
+    const Matrix both =
+        detail::blocks<Scalar>(G.A * period, G.B * period, detail::zeros<Scalar>(m, n), detail::zeros<Scalar>(m, m));
+    const Matrix flow = matrix_exponential<Scalar>(both);
+    return {flow.topLeftCorner(n, n), flow.topRightCorner(n, m), G.C, G.D, period};
+  }
+  const bool tustin = method == Discretisation::tustin;
+  const Scalar h = tustin ? Scalar(period / Scalar{2}) : period;
+  const Matrix I = Matrix::Identity(n, n);
+  const Eigen::FullPivLU<Matrix> implicit(Matrix(I - G.A * h));
+  expect(implicit.isInvertible(), "discretise: A", tustin ? "without an eigenvalue 2/T" : "without an eigenvalue 1/T",
+         G.A);
+  const Matrix R = implicit.inverse(), B = R * G.B * period;
+  if (tustin) return {Matrix(R * (I + G.A * h)), B, Matrix(G.C * R), Matrix(G.D + G.C * B / Scalar{2}), period};
+  return {R, B, Matrix(G.C * R), Matrix(G.D + G.C * B), period};
+}
+
+}  // namespace limpid
