@@ -70,6 +70,8 @@
 #include <limpid/design/discretise.hpp>
 #include <limpid/design/dynamic_block.hpp>
 #include <limpid/design/dynamic_group.hpp>
+#include <limpid/design/exact_hold_index.hpp>
+#include <limpid/design/exact_hold_loop.hpp>
 #include <limpid/design/fixed_gain_lmi.hpp>
 #include <limpid/design/frequency_response.hpp>
 #include <limpid/design/gain_choice.hpp>
@@ -78,6 +80,7 @@
 #include <limpid/design/gain_peak.hpp>
 #include <limpid/design/gain_spline.hpp>
 #include <limpid/design/gain_vertices.hpp>
+#include <limpid/design/gauss_quadrature.hpp>
 #include <limpid/design/grid.hpp>
 #include <limpid/design/h2_norm.hpp>
 #include <limpid/design/hamiltonian.hpp>
@@ -137,6 +140,10 @@
 #include <limpid/design/theorem3_design.hpp>
 #include <limpid/design/theorem5.hpp>
 #include <limpid/design/transfer_function.hpp>
+#include <limpid/design/transparency.hpp>
+#include <limpid/design/transparency_index.hpp>
+#include <limpid/design/transparency_model.hpp>
+#include <limpid/design/transparency_problem.hpp>
 #include <limpid/design/verified_cholesky.hpp>
 #include <limpid/design/virtual_coupling_design.hpp>
 
