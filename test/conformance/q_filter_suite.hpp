@@ -41,12 +41,12 @@ void check_q_filter(const Q& q) {
 
   // Poles: the roots of D by its companion matrix.
   const auto D = Traits::denominator(q);
-  Eigen::Matrix<double, n, n> companion = Eigen::Matrix<double, n, n>::Zero();
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(n, n);  // dynamic: one solver for the compiler
   for (int i = 0; i < n; ++i) {
     if (i > 0) companion(i, i - 1) = 1;
     companion(i, n - 1) = -static_cast<double>(D[static_cast<std::size_t>(i)] / D.back());
   }
-  const Eigen::Matrix<std::complex<double>, n, 1> poles = companion.eigenvalues();
+  const Eigen::VectorXcd poles = companion.eigenvalues();
   for (int i = 0; i < n; ++i) CHECK(poles[i].real() < 0);
 
   // The algebraic loop of any dt: Q(2 tau/h) < 1.
