@@ -23,7 +23,8 @@ void write_data(std::ostream& out, const Chart& chart) {
 void write_panel(std::ostream& out, const Panel& panel, std::size_t index) {
   out << "set title " << quoted(panel.title) << " noenhanced\nset xlabel " << quoted(panel.x_label)
       << " noenhanced\nset ylabel " << quoted(panel.y_label) << " noenhanced\n"
-      << (panel.logarithmic ? "set logscale y\n" : "unset logscale y\n") << "plot ";
+      << (panel.logarithmic ? "set logscale y\n" : "unset logscale y\n")
+      << (panel.logarithmic_x ? "set logscale x\n" : "unset logscale x\n") << "plot ";
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     out << (c == 0 ? "" : ", ") << "$data_" << index << '_' << c << " using 1:2 with lines lw 1.4"
         << (panel.curves[c].dashed ? " dt 2" : "") << " lc "

@@ -18,7 +18,8 @@ struct Curve {
 struct Panel {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
-  bool logarithmic = false;  ///< the y axis
+  bool logarithmic = false;    ///< the y axis
+  bool logarithmic_x = false;  ///< the x axis
 };
 
 struct Chart {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "design_options.hpp"
 
-#include "number_list.hpp"
+#include "option_values.hpp"
 #include "output_file.hpp"
 
 #include <limpid/design/sampled_polynomial.hpp>
 
-#include <CLI/CLI.hpp>
-
 #include <map>
-#include <stdexcept>
 
 namespace limpid::examples {
 
@@ -32,41 +29,6 @@ const std::map<std::string, DesignCriterion> criteria{{"first", DesignCriterion:
                                                       {"margin", DesignCriterion::margin},
                                                       {"bound", DesignCriterion::bound},
                                                       {"radius", DesignCriterion::radius}};
-
-[[noreturn]] void refuse(const std::string& option, const std::string& accepts) {
-  throw CLI::ValidationError(option, accepts);
-}
-
-[[noreturn]] void refuse(const std::string& option, const std::string& accepts, const std::string& got) {
-  refuse(option, "accepts " + accepts + ", got " + got);
-}
-
-// What the library refuses, by the option's name.
-template <typename Check>
-void check_as(const std::string& option, const Check& check) {
-  try {
-    check();
-  } catch (const std::invalid_argument& error) {
-    refuse(option, error.what());
-  }
-}
-
-double number(const std::string& option, const std::string& typed, const std::string& accepts, double least,
-              double most) {
-  const auto value = number_of(typed);
-  if (!value || *value < least || *value > most) refuse(option, accepts, typed);
-  return *value;
-}
-
-std::vector<double> numbers(const std::string& option, const std::string& typed, const std::string& separators,
-                            const std::string& accepts) {
-  const auto values = numbers_of(typed, separators);
-  if (!values) refuse(option, accepts, typed);
-  for (const double value : *values) {
-    if (!(std::abs(value) <= 1e12)) refuse(option, "numbers of at most 1e12 in magnitude", typed);
-  }
-  return *values;
-}
 
 const char* help_of_theorem(DesignCommand command) {
   switch (command) {

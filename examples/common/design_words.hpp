@@ -3,29 +3,16 @@
 #pragma once
 
 #include "design_judge.hpp"
+#include "words.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cmath>
 #include <complex>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 namespace limpid::examples {
-
-template <typename... Values>
-[[nodiscard]] std::string words(const char* format, Values... values) {
-  std::array<char, 400> line{};
-  std::snprintf(line.data(), line.size(), format, values...);
-  return line.data();
-}
-
-/// null in JSON where it is unknown.
-[[nodiscard]] inline nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
 
 /// Two numbers, or six where it is scheduled.
 [[nodiscard]] inline std::vector<double> numbers_of(const AffineGain<>& gain, bool scheduled) {
