@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "eigen_instances.hpp"
+
 #include <limpid/control/disturbance_observer.hpp>
 #include <limpid/design/observer_stability.hpp>
 

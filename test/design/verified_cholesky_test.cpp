@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "eigen_instances.hpp"
 #include "support/precision.hpp"
 
 #include <limpid/design/verified_cholesky.hpp>
@@ -17,6 +18,9 @@ using limpid::Ball;
 using limpid::verified_least_eigenvalue;
 using limpid::verified_positive_definite;
 using limpid::test::Fifty;
+
+// Of one size at run time where no fixed one is meant: the solver of eigenvalues takes a compiler long for each.
+using Balls = Eigen::Matrix<Ball<double>, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// In 50 digits, of the doubles as they are.
 template <typename Scalar, int n>
@@ -77,7 +81,7 @@ TEST_CASE("The bound on the error is used up to its last digit") {
 
 TEST_CASE("Of a matrix of balls every matrix has to be positive definite") {
   // [1 r r; r 1 r; r r 1] has the eigenvalue 1 - r twice; with -r it has 1 - 2 r.
-  Eigen::Matrix<Ball<double>, 3, 3> A;
+  Balls A(3, 3);
   for (const double r : {0.49, 0.51}) {
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) A(i, j) = i == j ? Ball<double>(1.0) : Ball<double>(0.0, r);
@@ -90,14 +94,14 @@ TEST_CASE("Of a matrix of balls every matrix has to be positive definite") {
 
 TEST_CASE("Numbers that are none prove nothing") {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    Eigen::Matrix2d A = Eigen::Matrix2d::Identity();
+    Eigen::MatrixXd A = Eigen::MatrixXd::Identity(2, 2);
     A(0, 0) = bad;
     CHECK_FALSE(verified_positive_definite(A));
     CHECK(verified_least_eigenvalue(A) == -std::numeric_limits<double>::infinity());
-    A = Eigen::Matrix2d::Identity();
+    A = Eigen::MatrixXd::Identity(2, 2);
     A(1, 0) = bad;
     CHECK_FALSE(verified_positive_definite(A));
-    CHECK_FALSE(verified_positive_definite(Eigen::Matrix2d(Eigen::Matrix2d::Identity()), bad));
+    CHECK_FALSE(verified_positive_definite(Eigen::MatrixXd(Eigen::MatrixXd::Identity(2, 2)), bad));
   }
 }
 
@@ -112,7 +116,7 @@ TEST_CASE("The bound of the least eigenvalue is below it and close") {
   CHECK(verified_least_eigenvalue(A) < -1);
   CHECK(verified_least_eigenvalue(A) > -1 - 1e-12);
 
-  Eigen::Matrix<Ball<double>, 5, 5> balls;
+  Balls balls(5, 5);
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < 5; ++j) balls(i, j) = Ball<double>(A(i, j), i == j ? 0.25 : 0.0);
   }
@@ -124,7 +128,7 @@ TEST_CASE("A ball that is not a number, in any row, proves nothing") {
   const Ball<double> nothing = Ball<double>::whole_line() * Ball<double>(0.0);
   for (int bad = 0; bad < 3; ++bad) {
     CAPTURE(bad);
-    Eigen::Matrix<Ball<double>, 3, 3> A = Eigen::Matrix3d::Identity().cast<Ball<double>>();
+    Balls A = Eigen::MatrixXd::Identity(3, 3).cast<Ball<double>>();
     A(bad, bad) = Ball<double>(1.0) + nothing;
     CHECK_FALSE(verified_positive_definite(A));
     CHECK(verified_least_eigenvalue(A) == -std::numeric_limits<double>::infinity());
@@ -133,14 +137,14 @@ TEST_CASE("A ball that is not a number, in any row, proves nothing") {
 
 TEST_CASE("A matrix that is not symmetric, not square or empty proves nothing") {
   const double none = -std::numeric_limits<double>::infinity();
-  Eigen::Matrix2d A;
+  Eigen::MatrixXd A(2, 2);
   A << 1, 100, 0, 1;  // x'A x < 0 at x = (1, -1)
   CHECK_FALSE(verified_positive_definite(A));
   CHECK(verified_least_eigenvalue(A) == none);
   CHECK_FALSE(verified_positive_definite(Eigen::MatrixXd(Eigen::MatrixXd::Ones(2, 3))));
   CHECK_FALSE(verified_positive_definite(Eigen::MatrixXd(Eigen::MatrixXd::Ones(3, 2))));
   CHECK(verified_least_eigenvalue(Eigen::MatrixXd(0, 0)) == none);
-  Eigen::Matrix<Ball<double>, 2, 2> balls = Eigen::Matrix2d::Identity().cast<Ball<double>>();
+  Balls balls = Eigen::MatrixXd::Identity(2, 2).cast<Ball<double>>();
   balls(0, 1) = Ball<double>(0.25, 0.25);  // has 0 in common with its mirror image
   CHECK(verified_positive_definite(balls));
   balls(0, 1) = Ball<double>(0.5, 0.25);
@@ -148,7 +152,7 @@ TEST_CASE("A matrix that is not symmetric, not square or empty proves nothing") 
 }
 
 TEST_CASE("An error below zero proves nothing") {
-  Eigen::Matrix2d A;
+  Eigen::MatrixXd A(2, 2);
   A << 1, 0, 0, -1;
   CHECK_FALSE(verified_positive_definite(A, -2.0));
 }
