@@ -15,53 +15,89 @@ using limpid::test::Fifty;
 
 namespace {
 
-/// theta_hat beside Gamma.
-template <int N>
-using LawState = Eigen::Matrix<Fifty, N, N + 1>;
+/// theta_hat and Gamma of N parameters, by loops and for N of run time: a compiler needs long for matrices of 50
+/// digits.
+struct LawState {
+  std::size_t N;
+  std::array<Fifty, 3> theta{};
+  std::array<std::array<Fifty, 3>, 3> Gamma{};
+};
 
-template <int N>
+/// a x + b y
+LawState sum(const Fifty& a, const LawState& x, const Fifty& b, const LawState& y) {
+  LawState z{x.N};
+  for (std::size_t i = 0; i < z.N; ++i) {
+    z.theta[i] = a * x.theta[i] + b * y.theta[i];
+    for (std::size_t j = 0; j < z.N; ++j) z.Gamma[i][j] = a * x.Gamma[i][j] + b * y.Gamma[i][j];
+  }
+  return z;
+}
+
+/// x + b y
+LawState moved(LawState x, const Fifty& b, const LawState& y) {
+  for (std::size_t i = 0; i < x.N; ++i) {
+    x.theta[i] += b * y.theta[i];
+    for (std::size_t j = 0; j < x.N; ++j) x.Gamma[i][j] += b * y.Gamma[i][j];
+  }
+  return x;
+}
+
 struct Law {
   Fifty alpha, nu, F;
-  Eigen::Matrix<Fifty, N, 1> phi;
+  std::array<Fifty, 3> phi;
+
+  [[nodiscard]] Fifty along_phi(std::size_t N, const std::array<Fifty, 3>& x) const {
+    Fifty sum = 0;
+    for (std::size_t i = 0; i < N; ++i) sum += phi[i] * x[i];
+    return sum;
+  }
+
+  [[nodiscard]] std::array<Fifty, 3> direction(const LawState& y) const {  // Gamma phi
+    std::array<Fifty, 3> direction;
+    for (std::size_t i = 0; i < y.N; ++i) direction[i] = along_phi(y.N, y.Gamma[i]);
+    return direction;
+  }
 
   // (4.44)-(4.46) as printed, with phi_zd
-  [[nodiscard]] LawState<N> slope(const LawState<N>& y) const {
-    const Eigen::Matrix<Fifty, N, 1> theta = y.col(0);
-    const Eigen::Matrix<Fifty, N, N> Gamma = y.template rightCols<N>();
-    const Eigen::Matrix<Fifty, N, 1> direction = Gamma * phi;
-    const Fifty m = Fifty(1) / (Fifty(1) + nu * phi.dot(direction));
-    const Fifty epsilon = phi.dot(theta) - F;
-    LawState<N> slope;
-    slope.col(0) = direction * (-m * epsilon);
-    slope.template rightCols<N>() = Gamma * alpha - direction * direction.transpose() * m;
+  [[nodiscard]] LawState slope(const LawState& y) const {
+    const std::array<Fifty, 3> d = direction(y);
+    const Fifty m = Fifty(1) / (Fifty(1) + nu * along_phi(y.N, d));
+    const Fifty epsilon = along_phi(y.N, y.theta) - F;
+    LawState slope{y.N};
+    for (std::size_t i = 0; i < y.N; ++i) {
+      slope.theta[i] = d[i] * (-m * epsilon);
+      for (std::size_t j = 0; j < y.N; ++j) slope.Gamma[i][j] = alpha * y.Gamma[i][j] - d[i] * d[j] * m;
+    }
     return slope;
   }
 
   // Gragg's midpoint rule in 2, 4, ... 28 pieces, extrapolated to none: order 28.
-  [[nodiscard]] LawState<N> extrapolated(const LawState<N>& y0, const Fifty& h) const {
+  [[nodiscard]] LawState extrapolated(const LawState& y0, const Fifty& h) const {
     constexpr std::size_t columns = 14;
-    std::array<LawState<N>, columns> table;
+    const Fifty one = 1;
+    std::array<LawState, columns> table{};
     for (std::size_t k = 0; k < columns; ++k) {
       const int pieces = 2 * (static_cast<int>(k) + 1);
       const Fifty piece = h / pieces;
-      LawState<N> older = y0, newer = y0 + slope(y0) * piece;
+      LawState older = y0, newer = moved(y0, piece, slope(y0));
       for (int i = 1; i < pieces; ++i) {
-        const LawState<N> next = older + slope(newer) * (2 * piece);
+        const LawState next = moved(older, Fifty(2 * piece), slope(newer));
         older = newer;
         newer = next;
       }
-      table[k] = (older + newer + slope(newer) * piece) / Fifty(2);
+      const Fifty half = one / Fifty(2);
+      table[k] = sum(half, moved(older, piece, slope(newer)), half, newer);
       for (std::size_t j = k; j > 0; --j) {
-        const Fifty ratio = Fifty(k + 1) / Fifty(j), weight = Fifty(1) / (ratio * ratio - Fifty(1));
-        table[j - 1] = table[j] + (table[j] - table[j - 1]) * weight;
+        const Fifty ratio = Fifty(k + 1) / Fifty(j), weight = one / (ratio * ratio - one);
+        table[j - 1] = sum(Fifty(one + weight), table[j], Fifty(-weight), table[j - 1]);
       }
     }
     return table[0];
   }
 
-  [[nodiscard]] LawState<N> integrated(LawState<N> y, const Fifty& t) const {
+  [[nodiscard]] LawState integrated(LawState y, const Fifty& t) const {
     for (Fifty done = 0; done < t;) {
-      const Fifty s = phi.dot(y.template rightCols<N>() * phi);
+      const Fifty s = along_phi(y.N, direction(y));
       const Fifty fastest = Fifty(1) / 10 / (s / (1 + nu * s) + alpha + Fifty(1) / 10);
       const Fifty h = std::min(fastest, Fifty(t - done));
       y = extrapolated(y, h);
@@ -71,15 +107,47 @@ struct Law {
   }
 };
 
-template <int N>
 struct Errors {
   Fifty theta = 0, Gamma = 0;
 };
 
-/// Largest differences between one step of the law from a random state and its integration in 50 digits: theta_hat over
-/// its size and that of its change, Gamma over its trace before the step.
+/// Largest differences of `actual` from `exact`, both some time after y: theta_hat over its size and that of its
+/// change, Gamma over its trace.
+Errors errors_of(const LawState& actual, const LawState& exact, const LawState& y) {
+  using std::abs, std::max;
+  Fifty size = 0, change = 0, trace = 0;
+  Errors worst;
+  for (std::size_t i = 0; i < y.N; ++i) {
+    size = max(size, Fifty(abs(y.theta[i])));
+    change = max(change, Fifty(abs(exact.theta[i] - y.theta[i])));
+    trace += y.Gamma[i][i];
+    worst.theta = max(worst.theta, Fifty(abs(actual.theta[i] - exact.theta[i])));
+    for (std::size_t j = 0; j < y.N; ++j) {
+      worst.Gamma = max(worst.Gamma, Fifty(abs(actual.Gamma[i][j] - exact.Gamma[i][j])));
+    }
+  }
+  return {worst.theta / (size + change), worst.Gamma / trace};
+}
+
+/// What `rls` knows, Gamma from its factors U D U'.
 template <int N, typename Scalar>
-Errors<N> errors_of_one_step(std::mt19937& random) {
+LawState state_of(const ProjectionRLS<N, 1, Scalar>& rls) {
+  LawState y{N};
+  const auto factors = rls.factors(0);
+  for (int i = 0; i < N; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    y.theta[row] = Fifty(rls.theta()(0, i));
+    for (int j = 0; j < N; ++j) {
+      Fifty& entry = y.Gamma[row][static_cast<std::size_t>(j)];
+      for (int k = 0; k < N; ++k) entry += Fifty(factors.U(i, k)) * Fifty(factors.D(k)) * Fifty(factors.U(j, k));
+    }
+  }
+  return y;
+}
+
+/// Of one step of the law from a random state, against its integration in 50 digits.
+template <int N, typename Scalar>
+Errors errors_of_one_step(std::mt19937& random) {
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -105,32 +173,20 @@ Errors<N> errors_of_one_step(std::mt19937& random) {
   using Force = typename Rls::Vector;
   for (int i = 0; i < 3; ++i) (void)rls.update(Scalar(0.001), draw(), Force::Constant(Scalar(uniform(-3, 3))));
 
-  Law<N> law{Fifty(settings.forgetting), Fifty(settings.normalisation), Fifty(Scalar(uniform(-3, 3))), {}};
+  Law law{Fifty(settings.forgetting), Fifty(settings.normalisation), Fifty(Scalar(uniform(-3, 3))), {}};
   const Row phi = draw();
-  law.phi = phi.matrix().transpose().template cast<Fifty>();
-  // Gamma from its factors, so that both start from the same matrix
-  const auto [U, D] = rls.factors(0);
-  const Eigen::Matrix<Fifty, N, N> U50 = U.template cast<Fifty>();
-  LawState<N> y;
-  y.col(0) = rls.theta().matrix().transpose().template cast<Fifty>();
-  y.template rightCols<N>() = U50 * D.template cast<Fifty>().asDiagonal() * U50.transpose();
+  for (int i = 0; i < N; ++i) law.phi[static_cast<std::size_t>(i)] = Fifty(phi(0, i));
+  const LawState y = state_of<N, Scalar>(rls);
   const Scalar dt = pick({0.0009765625, 0.001, 0.0166, 0.1, 0.5});
-  const LawState<N> exact = law.integrated(y, Fifty(dt));
+  const LawState exact = law.integrated(y, Fifty(dt));
   REQUIRE(rls.update(dt, phi, Force::Constant(Scalar(law.F))) == Status::ok);
-
-  const auto after = rls.factors(0);
-  const Eigen::Matrix<Fifty, N, N> U_after = after.U.template cast<Fifty>();
-  const Eigen::Matrix<Fifty, N, N> Gamma = U_after * after.D.template cast<Fifty>().asDiagonal() * U_after.transpose();
-  const Eigen::Matrix<Fifty, N, 1> theta = rls.theta().matrix().transpose().template cast<Fifty>();
-  const Fifty size = y.col(0).cwiseAbs().maxCoeff() + (exact.col(0) - y.col(0)).cwiseAbs().maxCoeff();
-  return {(theta - exact.col(0)).cwiseAbs().maxCoeff() / size,
-          (Gamma - exact.template rightCols<N>()).cwiseAbs().maxCoeff() / y.template rightCols<N>().trace()};
+  return errors_of(state_of<N, Scalar>(rls), exact, y);
 }
 
 template <int N, typename Scalar>
-Errors<N> worst_of(int steps) {
+Errors worst_of(int steps) {
   std::mt19937 random(444);
-  Errors<N> worst;
+  Errors worst;
   for (int i = 0; i < steps; ++i) {
     const auto error = errors_of_one_step<N, Scalar>(random);
     worst.theta = std::max(worst.theta, error.theta);
