@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "eigen_instances.hpp"
+
 #include <limpid/design/sampled_wall.hpp>
 #include <limpid/design/sampled_wall_interval.hpp>
 #include <limpid/design/sampled_wall_proof.hpp>
@@ -182,6 +184,35 @@ TEST_CASE("every end of an interval has a root on the circle and the intervals a
       bool inside = false;
       for (const auto& interval : intervals) inside = inside || interval.contains(B_c);
       CHECK(inside == (sampled_wall_radius(loop, plant, WallFeedback<>{K_c, B_c}) < bound));
+    }
+  }
+}
+
+TEST_CASE("a delay that is a number of periods but for its rounding has no fraction") {
+  const SampledWall<> loop{.period = 0.001, .delay = 0.017};  // fmod gives 8.7e-16 periods
+  CHECK(loop.fraction() == 0);
+  CHECK(loop.periods() == 17);
+  const HapticPlant<> plant{.mass = 0.05, .damping = 0.022};
+  const auto stable = stable_gains(loop, plant, 3.08642);
+  REQUIRE(stable.size() == 1);
+  CHECK(stable[0].contains(3.72));  // radius 0.99917 by an independent program
+  const auto slow = stable_gains(SampledWall<>{.period = 0.00025, .delay = 0.00425, .cutoff = 200}, plant, 49.38);
+  for (const auto& interval : slow) CHECK_FALSE(interval.contains(0.043));  // radius 1.00037
+}
+
+TEST_CASE("a delay with a very small fraction loses no interval") {
+  const HapticPlant<> plant{.mass = 0.05, .damping = 0.022};
+  for (const double part : {1e-12, 1e-10, 1e-8, 1e-5, 1e-3}) {
+    CAPTURE(part);
+    const SampledWall<> loop{.period = 0.001, .delay = 0.001 * (1 + part)};
+    for (const double K_c : {3.0, 62.0, 250.0}) {
+      const auto intervals = stable_gains(loop, plant, K_c);
+      for (double B_c = 0.15; B_c < 60; B_c *= 1.17) {
+        CAPTURE(B_c);
+        bool inside = false;
+        for (const auto& interval : intervals) inside = inside || interval.contains(B_c);
+        CHECK(inside == (sampled_wall_radius(loop, plant, WallFeedback<>{K_c, B_c}) < 1));
+      }
     }
   }
 }

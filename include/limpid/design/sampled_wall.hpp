@@ -45,10 +45,12 @@ struct SampledWall {
     expect(cutoff > Scalar{0}, "SampledWall: cutoff", "> 0", cutoff);
   }
 
-  /// delay = periods() * period + fraction(), both exact.
+  /// delay = periods() * period + fraction(); a fraction that is but the rounding of the two numbers, as of .017 s in
+  /// periods of .001 s, counts as none.
   [[nodiscard]] Scalar fraction() const {
     using std::fmod;
-    return fmod(delay, period);
+    const Scalar rest = fmod(delay, period), rounding = Scalar(16) * std::numeric_limits<Scalar>::epsilon() * delay;
+    return rest <= rounding || period - rest <= rounding ? Scalar{0} : rest;
   }
   [[nodiscard]] int periods() const {
     using std::round;

@@ -25,7 +25,7 @@ namespace detail {
 ///
 ///     sum_k r_k sin(k theta) = sin(theta) sum_k r_k U_(k-1)(cos theta),   r_k = sum_j (a_(j+k) c_j - a_j c_(j+k)),
 ///
-/// a polynomial in cos(theta), whose roots are eigenvalues of its colleague matrix; none can be missed.
+/// a polynomial in cos(theta), whose roots are eigenvalues of its colleague matrix, all at once.
 template <Real Scalar>
 class CircleCrossings {
  public:
@@ -107,10 +107,11 @@ class CircleCrossings {
   // Real roots in (-1, 1) of sum_k u_k U_k(x), u_k = r_(k+1), and some that are only near: eigenvalues of
   // 2 x U_k = U_(k-1) + U_(k+1), where U_n is replaced by -sum u_k/u_n U_k.
   [[nodiscard]] std::vector<Scalar> cosines() const {
-    using std::abs;
+    using std::abs, std::sqrt;
     const Coefficients r = sines();
     Eigen::Index n = r.size() - 2;
-    const Scalar negligible = std::numeric_limits<Scalar>::epsilon() * r.cwiseAbs().maxCoeff();
+    // Dividing by a small r_n would lose the roots that matter; what it moves them by, Newton's steps mend.
+    const Scalar negligible = sqrt(std::numeric_limits<Scalar>::epsilon()) / Scalar{16} * r.cwiseAbs().maxCoeff();
     while (n > 0 && !(abs(r[n + 1]) > negligible)) --n;
     std::vector<Scalar> found;
     if (n <= 0) return found;
@@ -133,7 +134,7 @@ class CircleCrossings {
 }  // namespace detail
 
 /// Every interval of B_c >= 0 over which the sampled loop with K_c has a spectral radius below `radius`, rising: the
-/// ends are where a root meets the circle, none is missed between them. Rounded.
+/// ends are where a root meets the circle. Rounded.
 ///
 /// Off line: some 20 us.
 /// @throws std::invalid_argument  where a field cannot be used
@@ -143,7 +144,7 @@ template <Real Scalar>
                                                              const Scalar& radius = Scalar{1}) {
   loop.check();
   plant.check();
-  expect(is_finite(K_c), "stable_gains: K_c", "finite", K_c);
+  expect(is_finite(K_c) && K_c > Scalar{0}, "stable_gains: K_c", "finite and > 0", K_c);
   expect(is_finite(radius) && radius > Scalar{0}, "stable_gains: radius", "finite and > 0", radius);
   const auto at = [&](const Scalar& B_c) { return sampled_wall_polynomial(loop, plant, {K_c, B_c}); };
   const auto p0 = at(Scalar{0});

@@ -207,7 +207,7 @@ template <Real Scalar>
   using std::sqrt;
   loop.check();
   box.check();
-  expect(is_finite(K_c), "robust_stable_gains: K_c", "finite", K_c);
+  expect(is_finite(K_c) && K_c > Scalar{0}, "robust_stable_gains: K_c", "finite and > 0", K_c);
   expect(is_finite(radius) && radius > Scalar{0}, "robust_stable_gains: radius", "finite and > 0", radius);
   expect(is_finite(tolerance) && tolerance > Scalar{0} && tolerance < Scalar{1}, "robust_stable_gains: tolerance",
          "> 0 and < 1", tolerance);
