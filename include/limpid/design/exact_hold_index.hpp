@@ -120,7 +120,7 @@ class ExactHoldIndex {
       w1 *= w1_.A.norm() / end;  // C B = 0
     }
     const Scalar bound = w1 * w1 * difference * (Scalar{2} * (felt + Scalar{1} / least_0) + difference);
-    return bound * end / (Scalar{4} * acos(Scalar{-1}));
+    return bound * end / (Scalar{3} * acos(Scalar{-1}));  // w^-4 where felt still grows
   }
 
   TransparencyProblem<Scalar> problem_;

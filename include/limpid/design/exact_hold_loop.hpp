@@ -74,6 +74,7 @@ class ExactHoldLoop {
   [[nodiscard]] HinfNorm<Scalar> norm() const {
     using std::ldexp;
     GainPeak<Scalar> best = peak();
+    if (best.value == Scalar{0}) return {best.value, best.frequency, best.value, best.value, NormVerdict::finite};
     Scalar gap = ldexp(Scalar{1}, -std::min(28, std::numeric_limits<Scalar>::digits / 2));
     while (gap < Scalar(1000)) {
       const Scalar level = best.value * (Scalar{1} + gap);
@@ -85,7 +86,8 @@ class ExactHoldLoop {
         gap *= Scalar{8};
       }
     }
-    return {best.value, best.frequency, best.value, infinity_of<Scalar>(), NormVerdict::undecided};
+    const Scalar infinity = infinity_of<Scalar>();
+    return {infinity, best.frequency, best.value, infinity, NormVerdict::undecided};
   }
 
  private:
@@ -143,13 +145,14 @@ class ExactHoldLoop {
     return found.value > best.value ? found : best;
   }
 
-  /// Beyond `omega`: |N| <= max(alpha, beta) |s (m s + b)|, |ZOH| <= 2/(w T).
+  /// Beyond `omega`: |N| <= |s (m s + b)| min(max(alpha, beta), alpha + beta b/(m w)), |ZOH| <= 2/(w T).
   [[nodiscard]] bool is_tail_below(const Scalar& level, const Scalar& omega) const {
     using std::abs;
     const Scalar hold = std::min<Scalar>(Scalar{1}, Scalar{2} / (omega * T_));
     const Scalar part = hold * (abs(C_.K_c) / omega + abs(C_.B_c)) / (m_ * omega);
-    return std::max(problem_.uncertainty.alpha, problem_.uncertainty.beta) <
-           level * (Scalar{1} - part) * (Scalar{1} - rounding());
+    const auto& [alpha, beta] = problem_.uncertainty;
+    const Scalar size = std::min<Scalar>(std::max(alpha, beta), alpha + beta * problem_.plant.damping / (m_ * omega));
+    return size < level * (Scalar{1} - part) * (Scalar{1} - rounding());
   }
 
   static Scalar rounding() { return Scalar(256) * std::numeric_limits<Scalar>::epsilon(); }

@@ -53,7 +53,8 @@ class HinfSearch {
         if (!rises_above(level, crossings.frequencies)) break;
       }
     }
-    return {peak_.value, peak_.frequency, peak_.value, infinity_of<Scalar>(), NormVerdict::undecided};
+    const Scalar infinity = infinity_of<Scalar>();
+    return {infinity, peak_.frequency, peak_.value, infinity, NormVerdict::undecided};
   }
 
  private:

@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include <limits>
+
 namespace limpid {
 namespace detail {
 
@@ -79,7 +81,8 @@ template <Real Scalar>
                                                    bool discrete) {
   expect(A.rows() == A.cols() && is_finite(A), "lyapunov: A", "square and finite", A);
   expect(Q.rows() == A.rows() && Q.cols() == A.rows() && is_finite(Q), "lyapunov: Q", "of A's size and finite", Q);
-  expect(Q == Q.transpose(), "lyapunov: Q", "symmetric", Q);
+  const Scalar rounding = Scalar(64) * std::numeric_limits<Scalar>::epsilon() * Q.norm();  // a product B B' has it
+  expect((Q - Q.transpose()).norm() <= rounding, "lyapunov: Q", "symmetric", Q);
   const DynamicVector<Scalar> d = balancing<Scalar>(A), inverse = d.cwiseInverse();
   const LyapunovSolver<Scalar> solver(inverse.asDiagonal() * A * d.asDiagonal(), discrete);
   const DynamicMatrix<Scalar> X = solver.solve(inverse.asDiagonal() * Q * inverse.asDiagonal());
