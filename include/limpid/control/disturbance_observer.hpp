@@ -110,7 +110,7 @@ class DisturbanceObserver {
     const Duration length = elapsed(now, last_);
     if (!started_ || length > longest_step_) return start(now, command, hand.value, velocity);
     if (length != length_) {
-      if (!is_finite(hand.value) || !is_finite(velocity) || !set_step(length, applied.value)) {
+      if (!is_finite(command) || !is_finite(hand.value) || !is_finite(velocity) || !set_step(length, applied.value)) {
         return held(command, Status::not_finite);
       }
     }

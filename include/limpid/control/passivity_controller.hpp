@@ -86,7 +86,9 @@ class PassivityController {
     const Scalar alpha = std::min<Scalar>(wanted, settings_.largest_damping);
     const Vector f1 = f + alpha * v;
     // a large square may have overflowed where the force has not
-    if (!is_finite(f1) || !is_finite(W) || !is_finite(square) || !is_finite(x)) return held(Status::not_finite);
+    if (!is_finite(f1) || !is_finite(W) || !is_finite(square) || !is_finite(x) || (started_ && !is_finite(taken))) {
+      return held(Status::not_finite);
+    }
     started_ = true;
     now_ = now;
     x_ = x;

@@ -66,10 +66,11 @@ struct CouplingStability {
 template <Real Scalar>
 [[nodiscard]] Scalar coupling_damping_at(const CouplingGains<Scalar>& gains, const Scalar& period,
                                          const Scalar& omega) {
-  using std::cos, std::sin;
+  using std::acos, std::cos, std::sin;
   gains.check();
   CoupledDevice<Scalar>{Scalar{1}, period}.check();
-  expect(is_finite(omega), "coupling_damping_at: omega", "finite", omega);
+  const Scalar Nyquist = acos(Scalar{-1}) / period * (Scalar{1} + Scalar{8} * std::numeric_limits<Scalar>::epsilon());
+  expect(omega >= Scalar{0} && omega <= Nyquist, "coupling_damping_at: omega", "0 to pi/T", omega);
   const Scalar u = gains.stiffness * period / Scalar{2}, r = gains.damping + u;
   const Scalar x = cos(omega * period / Scalar{2}), y = sin(omega * period / Scalar{2});
   if (!(r > Scalar{0})) return Scalar{0};

@@ -91,6 +91,9 @@ requires(N >= 1) class SerialChain {
     for (int i = 0; i < N; ++i) {
       const auto& row = rows_[static_cast<std::size_t>(i)];
       using std::max;
+      if (!(row.turns() > Scalar(0)) && !(is_finite(limits_.lower[i]) && is_finite(limits_.upper[i]))) {
+        return std::numeric_limits<Scalar>::infinity();
+      }
       reach += row.turns() > Scalar(0) ? row.at(Scalar(0)).p.norm()
                                        : max(row.at(limits_.lower[i]).p.norm(), row.at(limits_.upper[i]).p.norm());
     }
