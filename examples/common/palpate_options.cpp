@@ -154,11 +154,12 @@ std::optional<HandModel> hand_of(const Typed& typed) {
   if (hand.mass < 1e-3 || hand.mass > 1e3) {
     refuse("--operator", "accepts a mass in [0.001, 1000], got " + text(hand.mass));
   }
-  if (hand.damping < 0 || hand.damping > 1e4) {
-    refuse("--operator", "accepts a damping in [0, 1e4], got " + text(hand.damping));
+  // The arm takes the hand's force once a tick of 1 ms: beyond these the simulation itself would make energy.
+  if (hand.damping < 0 || hand.damping > 100) {
+    refuse("--operator", "accepts a damping in [0, 100], got " + text(hand.damping));
   }
-  if (hand.stiffness < 0 || hand.stiffness > 1e6) {
-    refuse("--operator", "accepts a stiffness in [0, 1e6], got " + text(hand.stiffness));
+  if (hand.stiffness < 0 || hand.stiffness > 1e4) {
+    refuse("--operator", "accepts a stiffness in [0, 1e4], got " + text(hand.stiffness));
   }
   if (typed.playback) refuse("--playback", "goes with --operator force: a hand holds the arm");
   return hand;
