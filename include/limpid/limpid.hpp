@@ -181,8 +181,10 @@
 #include <limpid/control/tracking_law.hpp>
 #include <limpid/control/virtual_coupling.hpp>
 
+#include <limpid/device/arm_hardware.hpp>
 #include <limpid/device/haptic_device.hpp>
 #include <limpid/device/recording.hpp>
+#include <limpid/device/simulated_arm.hpp>
 #include <limpid/device/simulated_omni.hpp>
 
 #include <limpid/loop/block.hpp>
