@@ -185,6 +185,7 @@
 #include <limpid/device/haptic_device.hpp>
 #include <limpid/device/recording.hpp>
 #include <limpid/device/simulated_arm.hpp>
+#include <limpid/device/simulated_five_bar.hpp>
 #include <limpid/device/simulated_omni.hpp>
 
 #include <limpid/loop/block.hpp>
