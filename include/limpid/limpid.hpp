@@ -39,6 +39,7 @@
 #include <limpid/estimation/environment_estimator.hpp>
 #include <limpid/estimation/excitation.hpp>
 #include <limpid/estimation/exponential_mean.hpp>
+#include <limpid/estimation/frequency_identification.hpp>
 #include <limpid/estimation/least_squares_flow.hpp>
 #include <limpid/estimation/projection_rls.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
