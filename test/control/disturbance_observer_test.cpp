@@ -380,6 +380,17 @@ TEST_CASE("a value that is not finite changes nothing, and the force is the comm
   }
 }
 
+TEST_CASE("a command that is refused at a tick of another length leaves the state for the call that follows") {
+  auto observer = observer_of<FirstOrderQ<>>(50);
+  using Vector = decltype(observer)::Vector;
+  const Vector good(0.3), none(0.0), bad(std::numeric_limits<double>::quiet_NaN());
+  for (int k = 0; k < 3; ++k) (void)tick(observer, k * 1ms, good, good, good, good);
+  auto undisturbed = observer;
+  CHECK(tick(observer, 5ms, bad, good, good, good).status == Status::not_finite);
+  CHECK(tick(observer, 5ms, good, good, good, none).force[0] ==
+        tick(undisturbed, 5ms, good, good, good, none).force[0]);
+}
+
 TEST_CASE("a first call that is not finite does not start it, a clock that stands changes nothing") {
   auto observer = observer_of<ButterworthQ<>>(50), undisturbed = observer;
   using Vector = decltype(observer)::Vector;

@@ -218,3 +218,12 @@ TEST_CASE("settings that are absent or cannot serve are refused by name") {
   CHECK_THROWS_AS(Controller({.largest_damping = 1, .smallest_speed = -1}), std::invalid_argument);
   CHECK_THROWS_AS(Controller({.largest_damping = 1, .most_stored = -1}), std::invalid_argument);
 }
+
+TEST_CASE("an infinite force that is said to be applied gives no credit") {
+  Controller controller({.pairing = EnergyPairing::held_force, .largest_damping = 10, .most_stored = 1});
+  (void)controller.update(0ms, One(0.0), One(0.0), One(1.0));
+  const auto refused = controller.update(1ms, One(0.0), One(0.1), One(1.0), One(infinity));
+  CHECK(refused.status == Status::not_finite);
+  CHECK(refused.energy == 0);
+  CHECK(controller.update(2ms, One(0.0), One(0.2), One(1.0), One(0.0)).energy == 0);
+}

@@ -10,6 +10,7 @@
 #include <complex>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 using limpid::first_order_weight;
 using limpid::HoldModel;
@@ -90,6 +91,21 @@ TEST_CASE("with the hold B they are too, and the norm is not the 0.5 of the high
     CHECK(agrees(transparency_index(paper(HoldModel::first_order), C).J, row.J, 1e-12));
     CHECK(agrees(uncertainty_norm(paper(HoldModel::first_order), C).norm, row.norm, 1e-12));
   }
+}
+
+TEST_CASE("with the exact hold the bound of the norm is close where the mass is surer than the damping") {
+  for (const auto& [alpha, beta] : {std::pair{0.05, 0.5}, std::pair{0.2, 1.0}, std::pair{0.0, 0.5}}) {
+    CAPTURE(alpha);
+    auto problem = paper(HoldModel::exact);
+    problem.uncertainty = {alpha, beta};
+    const auto norm = uncertainty_norm(problem, {1000, 10});
+    CHECK(norm.verdict == NormVerdict::finite);
+    CHECK(norm.upper <= norm.norm * (1 + 1e-6));
+  }
+  auto sure = paper(HoldModel::exact);
+  sure.uncertainty = {0, 0};
+  CHECK(uncertainty_norm(sure, {1000, 10}).verdict == NormVerdict::finite);
+  CHECK(uncertainty_norm(sure, {1000, 10}).norm == 0);
 }
 
 TEST_CASE("the optimum with the wall's own stiffness is the reference's to ten digits") {
