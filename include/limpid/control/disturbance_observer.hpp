@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <bit>
 #include <chrono>
 #include <cstddef>
@@ -162,7 +163,7 @@ class DisturbanceObserver {
   [[nodiscard]] EIGEN_ALWAYS_INLINE Output advance(std::integer_sequence<int, axis...>, Time now, const Vector& command,
                                                    const Vector& hand, const Vector& velocity,
                                                    const Vector& applied) noexcept {
-    const OfAxis next[] = {observe(axis, command[axis], hand[axis], velocity[axis], applied[axis])...};
+    const std::array<OfAxis, Axes> next{observe(axis, command[axis], hand[axis], velocity[axis], applied[axis])...};
     if (!((next[axis].check() + ...).sum() == Scalar{0})) return held(command, Status::not_finite);
     Output output;
     output.status = Status::ok;
@@ -222,7 +223,7 @@ class DisturbanceObserver {
       of(velocity_now_, axis) = padded(momentum_[axis] * step.momentum.now - damping_[axis] * step.force.now);
       of(velocity_before_, axis) = padded(momentum_[axis] * step.momentum.before - damping_[axis] * step.force.before);
     }
-    for (int i = 0; i < n; ++i) Phi_[i] = padded(step.Phi.col(i));
+    for (int i = 0; i < n; ++i) Phi_[static_cast<std::size_t>(i)] = padded(step.Phi.col(i));
     length_ = length;
     now_ = now;
     before_ = padded(step.force.before);
@@ -233,7 +234,7 @@ class DisturbanceObserver {
   }
 
   alignas(alignment) States x_ = States::Zero();
-  alignas(alignment) Column Phi_[n];
+  alignas(alignment) std::array<Column, n> Phi_;
   alignas(alignment) Column now_ = Column::Zero();
   alignas(alignment) Column before_ = Column::Zero();
   alignas(alignment) Column applied_ = Column::Zero();

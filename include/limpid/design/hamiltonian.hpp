@@ -43,7 +43,8 @@ template <Real Scalar>
   const Matrix H = blocks<Scalar>(F, -G.B * by_B / level, G.C.transpose() * by_C / level, -F.transpose());
   const auto eigenvalues = eigenvalues_of<Scalar>(H);
   if (eigenvalues.empty()) return {};
-  const Scalar rounding = Scalar(64 * 2 * n) * std::numeric_limits<Scalar>::epsilon() * balanced<Scalar>(H).norm();
+  const Scalar rounding =
+      Scalar(static_cast<int>(128 * n)) * std::numeric_limits<Scalar>::epsilon() * balanced<Scalar>(H).norm();
   Crossings<Scalar> crossings{true, {}};
   for (const auto& s : eigenvalues) {
     if (abs(s.real()) <= rounding && s.imag() >= Scalar{0}) crossings.frequencies.push_back(s.imag());

@@ -24,11 +24,11 @@ struct ResponseSample {
 /// The axis 1/(m s + b) that comes nearest to a frequency response.
 template <Real Scalar = double>
 struct IdentifiedAxis {
-  Scalar mass;         ///< m, kg
-  Scalar damping;      ///< b, N s/m
-  Scalar misfit;       ///< root mean square of |(b + i omega m) v/F - 1|: 0 for such an axis
-  bool physical;       ///< whether m > 0 and b >= 0
-  std::string reason;  ///< why not; empty where it is
+  Scalar mass{0};         ///< m, kg
+  Scalar damping{0};      ///< b, N s/m
+  Scalar misfit{0};       ///< root mean square of |(b + i omega m) v/F - 1|: 0 for such an axis
+  bool physical = false;  ///< whether m > 0 and b >= 0
+  std::string reason;     ///< why not; empty where it is
 };
 
 /// Nominal mass and damping of an axis, Eom, Suh and Yi, section 2: the others locked, it is taken for

@@ -149,7 +149,7 @@ class FiveBarKinematics {
       return Held::Constant(true);
     }
     const Scalar rounding = 128 * std::numeric_limits<Scalar>::epsilon();  // of q near the limits
-    const Held held = arms.q.array() > upper_.array() + rounding || arms.q.array() < lower_.array() - rounding;
+    Held held = arms.q.array() > upper_.array() + rounding || arms.q.array() < lower_.array() - rounding;
     arms.q = held.select(arms.q.cwiseMax(lower_).cwiseMin(upper_), arms.q);
     arms.status |= when(held.any(), Status::unreachable);
     return held;
