@@ -20,7 +20,8 @@ class PalpationOperator {
   ///
   /// A hand's force is felt by the arm, and the arm by the hand. An ideal arm answers to a force from the next tick on,
   /// so that trying the tick once gives the true force. On a realistic one the force at `now` bends the tick's end by
-  /// some B h/(2 m) of itself; it is tried until that is settled.
+  /// some B h/(2 m) of itself; four tries leave the fourth power of that, 0.4 % at the largest B that `palpate` takes
+  /// with a hand of 0.2 kg.
   [[nodiscard]] double press(Time now, const SimulatedOmni<>& device);
 
   [[nodiscard]] Status status() const noexcept { return status_; }  ///< of the last `press`

@@ -23,5 +23,5 @@ TEST_CASE("parameters that carry nothing against gravity or motion do not act, a
   CHECK(information.diagonal().head<9>().maxCoeff() < 1e-20);  // of link 1 only I_zz acts
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> directions(information);
   const int acting = static_cast<int>((directions.eigenvalues().array() > 1e-9 * directions.eigenvalues()[65]).count());
-  CHECK(acting == 36 + 6);  // base parameters of the PUMA 560 (Gautier and Khalil 1990), and six frictions
+  CHECK(acting == 36 + 6);  // inertial parameters that act on a PUMA 560, and six frictions
 }

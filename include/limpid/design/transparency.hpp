@@ -174,7 +174,7 @@ template <Real Scalar, typename Function>
 /// The gain B_c of smallest J with K_c = K, which keeps the place of the hand in the wall exact at rest: the best of a
 /// search over B_c, then the root of dJ/dB_c, to rounding (J itself is flat there and would tell half the digits).
 ///
-/// Off line: some 10 ms (A, B), a second (C).
+/// Off line: some 10 ms (A, B), seconds (C).
 /// @throws std::invalid_argument  where the problem is refused
 template <Real Scalar>
 [[nodiscard]] TransparencyOptimum<Scalar> transparency_optimum(const TransparencyProblem<Scalar>& problem) {

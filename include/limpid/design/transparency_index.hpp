@@ -75,7 +75,7 @@ template <Real Scalar>
 /// J, (11): exact by the Lyapunov equation for the holds A and B, by quadrature for C. Infinite with the verdict where
 /// the loop or the weight is not stable, and where w1 Y_v does not go to zero at high frequency.
 ///
-/// Off line: 0.1 ms (A, B), some ms (C).
+/// Off line: 0.1 ms (A, B), 10 to 100 ms (C).
 /// @throws std::invalid_argument  where an argument is refused
 template <Real Scalar>
 [[nodiscard]] TransparencyIndex<Scalar> transparency_index(const TransparencyProblem<Scalar>& problem,
