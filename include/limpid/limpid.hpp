@@ -104,7 +104,6 @@
 #include <limpid/design/lyapunov.hpp>
 #include <limpid/design/map.hpp>
 #include <limpid/design/margin_problem.hpp>
-#include <limpid/design/matrix_exponential.hpp>
 #include <limpid/design/mean_value_form.hpp>
 #include <limpid/design/norm_verdict.hpp>
 #include <limpid/design/observer_stability.hpp>

@@ -3,8 +3,9 @@
 
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/held_step.hpp>
 #include <limpid/core/real.hpp>
-#include <limpid/design/matrix_exponential.hpp>
+#include <limpid/design/balance.hpp>
 #include <limpid/design/state_space.hpp>
 
 #include <Eigen/Core>
@@ -28,14 +29,14 @@ template <Real Scalar>
   G.check();
   expect(!G.is_discrete(), "discretise: G", "continuous", G.period);
   expect(is_finite(period) && period > Scalar{0}, "discretise: period", "finite and > 0", period);
-  const Eigen::Index n = G.order(), m = G.inputs();
+  const Eigen::Index n = G.order();
   if (n == 0) return {G.A, G.B, G.C, G.D, period};
   if (method == Discretisation::zero_order_hold) {
-    // exp([[A, B], [0, 0]] T) = [[A_d, B_d], [0, I]]
-    const Matrix both =
-        detail::blocks<Scalar>(G.A * period, G.B * period, detail::zeros<Scalar>(m, n), detail::zeros<Scalar>(m, m));
-    const Matrix flow = matrix_exponential<Scalar>(both);
-    return {flow.topLeftCorner(n, n), flow.topRightCorner(n, m), G.C, G.D, period};
+    // In balanced states: x = diag(d) w
+    const detail::DynamicVector<Scalar> d = detail::balancing<Scalar>(G.A), inverse = d.cwiseInverse();
+    const auto step = held_step(Matrix(inverse.asDiagonal() * G.A * d.asDiagonal()), period);
+    const Matrix Psi = d.asDiagonal() * step.Psi * inverse.asDiagonal();
+    return {Matrix(d.asDiagonal() * step.Phi * inverse.asDiagonal()), Matrix(Psi * G.B), G.C, G.D, period};
   }
   const bool tustin = method == Discretisation::tustin;
   const Scalar h = tustin ? Scalar(period / Scalar{2}) : period;
