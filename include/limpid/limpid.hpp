@@ -117,6 +117,7 @@
 #include <limpid/design/reduced_lmi.hpp>
 #include <limpid/design/reduced_theorem.hpp>
 #include <limpid/design/root_radius.hpp>
+#include <limpid/design/sampled_delay.hpp>
 #include <limpid/design/sampled_gain.hpp>
 #include <limpid/design/sampled_polynomial.hpp>
 #include <limpid/design/sampled_proof.hpp>

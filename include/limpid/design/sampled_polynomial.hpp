@@ -5,6 +5,7 @@
 #include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/design/design_point.hpp>
+#include <limpid/design/sampled_delay.hpp>
 #include <limpid/design/second_order_flow.hpp>
 
 #include <Eigen/Core>
@@ -34,15 +35,9 @@ struct SampledSystem {
            ">= 0 and below " + std::to_string(most_periods) + " periods", delay);
   }
 
-  /// delay = periods() * period + fraction(), both exact.
-  [[nodiscard]] Scalar fraction() const {
-    using std::fmod;
-    return fmod(delay, period);
-  }
-  [[nodiscard]] int periods() const {
-    using std::round;
-    return static_cast<int>(round((delay - fraction()) / period));
-  }
+  /// delay = periods() * period + fraction(), but for rounding.
+  [[nodiscard]] Scalar fraction() const { return detail::delay_fraction(delay, period); }
+  [[nodiscard]] int periods() const { return detail::delay_periods(delay, period); }
   /// Degree of the characteristic polynomial: position, velocity and the forces L e on their way.
   [[nodiscard]] int degree() const { return periods() + (fraction() > Scalar{0} ? 3 : 2); }
 };

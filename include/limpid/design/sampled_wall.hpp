@@ -6,6 +6,7 @@
 #include <limpid/core/real.hpp>
 #include <limpid/design/haptic_wall.hpp>
 #include <limpid/design/root_radius.hpp>
+#include <limpid/design/sampled_delay.hpp>
 #include <limpid/design/second_order_flow.hpp>
 
 #include <Eigen/Core>
@@ -45,17 +46,9 @@ struct SampledWall {
     expect(cutoff > Scalar{0}, "SampledWall: cutoff", "> 0", cutoff);
   }
 
-  /// delay = periods() * period + fraction(); a fraction that is but the rounding of the two numbers, as of .017 s in
-  /// periods of .001 s, counts as none.
-  [[nodiscard]] Scalar fraction() const {
-    using std::fmod;
-    const Scalar rest = fmod(delay, period), rounding = Scalar(16) * std::numeric_limits<Scalar>::epsilon() * delay;
-    return rest <= rounding || period - rest <= rounding ? Scalar{0} : rest;
-  }
-  [[nodiscard]] int periods() const {
-    using std::round;
-    return static_cast<int>(round((delay - fraction()) / period));
-  }
+  /// delay = periods() * period + fraction(), but for rounding.
+  [[nodiscard]] Scalar fraction() const { return detail::delay_fraction(delay, period); }
+  [[nodiscard]] int periods() const { return detail::delay_periods(delay, period); }
   [[nodiscard]] bool filtered() const { return is_finite(cutoff); }
   /// Of the characteristic polynomial: position and velocity, forces on their way, and the velocity's estimate.
   [[nodiscard]] int degree() const {
