@@ -15,6 +15,7 @@
 #include <array>
 #include <bit>
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -98,7 +99,7 @@ class DisturbanceObserver {
     tau_ = QFilterTraits<Q>::time_constant(settings.filter);
     momentum_ = settings.mass / tau_;
     expect(is_finite(momentum_), "DisturbanceObserver: filter", "a finite mass over its time constant", tau_);
-    direct_ = equation_.c[n - 1] * momentum_;
+    direct_ = lanes(equation_.c[n - 1] * momentum_);
   }
 
   /// @param command   what the device is to be given, N, but for the disturbance
@@ -110,144 +111,152 @@ class DisturbanceObserver {
     if (started_ && now <= last_) return held(command, Status::clock_backwards);
     const Duration length = elapsed(now, last_);
     if (!started_ || length > longest_step_) return start(now, command, hand.value, velocity);
-    if (length != length_) {
-      if (!is_finite(command) || !is_finite(hand.value) || !is_finite(velocity) || !set_step(length, applied.value)) {
-        return held(command, Status::not_finite);
-      }
+    if (length != length_) return advance_other(now, length, command, hand.value, velocity, applied.value);
+    if constexpr (std::floating_point<Scalar>) {
+      return advance_flat(now, command, hand.value, velocity, applied.value);
+    } else {
+      return advance(all_states, now, lanes(command), lanes(hand.value), lanes(velocity), lanes(applied.value));
     }
-    return advance(all_axes, now, command, hand.value, velocity, applied.value);
   }
 
  private:
   static constexpr int n = QFilterTraits<Q>::order;
-  static constexpr int rows = lanes_for<Scalar>(n);  // the states of an axis fill a packet
-  using States = Eigen::Array<Scalar, rows * Axes, 1, Eigen::DontAlign>;
-  using Column = Eigen::Array<Scalar, rows, 1, Eigen::DontAlign>;
+  using Axis = Lanes<Axes, Scalar>;      // one number of each axis, side by side
+  using States = std::array<Axis, n>;    // x_0 to x_(n-1) of all axes
+  using Column = std::array<Scalar, n>;  // the same for all axes
   // Told here, so that it depends on no compiler flags: a packet across two cache lines is read late.
   static constexpr std::size_t alignment =
-      std::has_single_bit(sizeof(Column)) && sizeof(Column) <= 64 ? sizeof(Column) : alignof(Scalar);
+      std::has_single_bit(sizeof(Axis)) && sizeof(Axis) <= 64 ? sizeof(Axis) : alignof(Scalar);
 
-  static auto of(auto& states, int axis) noexcept { return states.template segment<rows>(rows * axis); }
+  static constexpr std::make_integer_sequence<std::size_t, n> all_states{};
 
-  static constexpr std::make_integer_sequence<int, Axes> all_axes{};
-  static constexpr std::make_integer_sequence<int, n> all_states{};
+  static Axis lanes(const Vector& values) noexcept { return to_lanes<Axes>(values, Scalar{0}); }
 
-  struct OfAxis {
-    Column x;  // what of the state of the tick does not depend on what the device applies from then on
-    Scalar force, d_hat;
-
-    // Zeros where all is finite: every input reaches all of x, the command the force.
-    [[nodiscard]] EIGEN_ALWAYS_INLINE Column check() const noexcept { return (x + force) * Scalar{0}; }
-  };
-
-  // The state of a tick is x_ + now_ F_device, where what the device applied is known one tick later.
-  template <int... i>
-  [[nodiscard]] EIGEN_ALWAYS_INLINE Column next_state(std::integer_sequence<int, i...>, int axis, const Scalar& hand,
-                                                      const Scalar& velocity, const Scalar& applied) const noexcept {
-    const Column inputs = now_ * hand + before_ * hand_[axis] + applied_ * applied +
-                          of(velocity_now_, axis) * velocity + of(velocity_before_, axis) * velocity_[axis];
-    return (inputs + ... + (Phi_[i] * x_[rows * axis + i]));
+  // x_i of the tick, but for now_[i] F_device: what the device applied is known one tick later.
+  [[nodiscard]] Axis state(std::size_t i, const Axis& hand, const Axis& velocity, const Axis& applied) const noexcept {
+    return (now_[i] * hand + applied_[i] * applied + velocity_now_[i] * velocity) + ahead_[i];
   }
 
-  [[nodiscard]] EIGEN_ALWAYS_INLINE OfAxis observe(int axis, const Scalar& command, const Scalar& hand,
-                                                   const Scalar& velocity, const Scalar& applied) const noexcept {
-    const Column x = next_state(all_states, axis, hand, velocity, applied);
-    const Scalar rest = x[n - 1] - direct_[axis] * velocity;
-    const Scalar d_hat = loop_ * (feedthrough_ * command + rest);
-    return {x, command + d_hat, d_hat};
+  // What this tick gives to x_i of the next one, where that comes after the same time.
+  template <std::size_t... j>
+  [[nodiscard]] Axis ahead(std::index_sequence<j...>, std::size_t i, const States& x, const Axis& hand,
+                           const Axis& velocity) const noexcept {
+    const Axis inputs = before_[i] * hand + velocity_before_[i] * velocity;
+    return (inputs + ... + (Phi_[i][j] * x[j]));
   }
 
-  // Axis by axis without a loop, since compilers leave one of three passes as it is, and entry by entry: what was
-  // written so and is read as a packet would have to wait for memory.
-  template <int... axis>
-  [[nodiscard]] EIGEN_ALWAYS_INLINE Output advance(std::integer_sequence<int, axis...>, Time now, const Vector& command,
-                                                   const Vector& hand, const Vector& velocity,
-                                                   const Vector& applied) noexcept {
-    const std::array<OfAxis, Axes> next{observe(axis, command[axis], hand[axis], velocity[axis], applied[axis])...};
-    if (!((next[axis].check() + ...).sum() == Scalar{0})) return held(command, Status::not_finite);
-    Output output;
-    output.status = Status::ok;
-    last_ = now;
-    (keep(axis, next[axis], hand[axis], velocity[axis], output), ...);
-    return output;
+  template <std::size_t... i>
+  [[nodiscard]] Output advance(std::index_sequence<i...>, Time now, const Axis& command, const Axis& hand,
+                               const Axis& velocity, const Axis& applied) noexcept {
+    const States x{state(i, hand, velocity, applied)...};
+    const Axis d_hat = loop_ * (feedthrough_ * command + x[n - 1] - direct_ * velocity);
+    const Axis force = command + d_hat;
+    // Zero where all is finite: every input reaches a state, the command the force.
+    if (!(((force + ... + x[i]) * Scalar{0}).sum() == Scalar{0})) return held(axes_of(command), Status::not_finite);
+    keep(now, x, hand, velocity);
+    force_ = force;
+    d_hat_ = d_hat;
+    return {axes_of(force), axes_of(d_hat), Status::ok};
   }
 
-  EIGEN_ALWAYS_INLINE void keep(int axis, const OfAxis& next, const Scalar& hand, const Scalar& velocity,
-                                Output& output) noexcept {
-    of(x_, axis) = next.x;
-    hand_[axis] = hand;
-    velocity_[axis] = velocity;
-    output.force[axis] = force_[axis] = next.force;
-    output.disturbance[axis] = d_hat_[axis] = next.d_hat;
-  }
-
-  [[nodiscard, gnu::noinline]] Output start(Time now, const Vector& command, const Vector& hand,
-                                            const Vector& velocity) noexcept {
-    const Vector force = command + d_hat_;
-    States x = States::Zero();
-    for (int axis = 0; axis < Axes; ++axis) {
-      const auto at_rest = equation_.at_rest(d_hat_[axis], momentum_[axis] * velocity[axis]);
-      of(x, axis) = padded(at_rest) - now_ * force[axis];
-    }
-    if (!is_finite(x) || !is_finite(hand) || !is_finite(force)) return held(command, Status::not_finite);
-    started_ = true;
+  void keep(Time now, const States& x, const Axis& hand, const Axis& velocity) noexcept {
     last_ = now;
     x_ = x;
     hand_ = hand;
     velocity_ = velocity;
-    force_ = force;
-    return {force, d_hat_, Status::ok};
+    for (std::size_t i = 0; i < n; ++i) ahead_[i] = ahead(all_states, i, x, hand, velocity);
+  }
+
+  static Vector axes_of(const Axis& values) noexcept { return values.template head<Axes>(); }
+
+  // `advance` with all that it calls, whatever the compiler has spent on inlining elsewhere; a scalar of many digits
+  // has too much of that.
+  [[nodiscard, gnu::flatten]] Output advance_flat(Time now, const Vector& command, const Vector& hand,
+                                                  const Vector& velocity, const Vector& applied) noexcept {
+    return advance(all_states, now, lanes(command), lanes(hand), lanes(velocity), lanes(applied));
+  }
+
+  // A tick of another length than the last one.
+  [[nodiscard, gnu::noinline]] Output advance_other(Time now, Duration length, const Vector& command,
+                                                    const Vector& hand, const Vector& velocity,
+                                                    const Vector& applied) noexcept {
+    const bool finite = is_finite(command) && is_finite(hand) && is_finite(velocity);
+    if (!finite || !set_step(length, applied)) return held(command, Status::not_finite);
+    return advance(all_states, now, lanes(command), lanes(hand), lanes(velocity), lanes(applied));
+  }
+
+  [[nodiscard, gnu::noinline]] Output start(Time now, const Vector& command, const Vector& hand,
+                                            const Vector& velocity) noexcept {
+    const Vector d_hat = axes_of(d_hat_), force = command + d_hat;
+    bool finite = is_finite(hand) && is_finite(force);
+    States x = zero_states();
+    for (int axis = 0; axis < Axes; ++axis) {
+      const auto at_rest = equation_.at_rest(d_hat[axis], momentum_[axis] * velocity[axis]);
+      for (std::size_t i = 0; i < n; ++i) x[i][axis] = at_rest[static_cast<int>(i)] - now_[i] * force[axis];
+    }
+    for (const Axis& x_i : x) finite = finite && is_finite(x_i);
+    if (!finite) return held(command, Status::not_finite);
+    started_ = true;
+    keep(now, x, lanes(hand), lanes(velocity));
+    force_ = lanes(force);
+    return {force, d_hat, Status::ok};
   }
 
   [[nodiscard, gnu::noinline]] Output held(const Vector& command, Status status) noexcept {
-    const Vector force = command + d_hat_;
-    if (is_finite(force)) force_ = force;
-    return {force_, d_hat_, is_finite(force) ? status : status | Status::not_finite};
+    const Vector d_hat = axes_of(d_hat_), force = command + d_hat;
+    if (!is_finite(force)) return {axes_of(force_), d_hat, status | Status::not_finite};
+    force_ = lanes(force);
+    return {force, d_hat, status};
   }
 
-  static Column padded(const typename Equation::Column& column) noexcept {
-    Column full = Column::Zero();
-    full.template head<n>() = column.array();
-    return full;
+  static States zero_states() noexcept {
+    States zeros;
+    zeros.fill(Axis::Zero());
+    return zeros;
   }
 
   // False, with nothing changed, where `applied` cannot be used.
-  [[nodiscard, gnu::noinline]] bool set_step(Duration length, const Vector& applied) noexcept {
+  [[nodiscard]] bool set_step(Duration length, const Vector& applied) noexcept {
     const Step step(equation_, form_, in_seconds<Scalar>(length) / tau_);
-    const Column now = padded(step.force.now);
+    const auto at_applied = (step.Phi.lazyProduct(step.force.now) + step.force.before).eval();
     States x = x_;
-    for (int axis = 0; axis < Axes; ++axis) of(x, axis) += (now_ - now) * applied[axis];  // the same state of the tick
-    if (!is_finite(x)) return false;
-    x_ = x;
-    for (int axis = 0; axis < Axes; ++axis) {
-      of(velocity_now_, axis) = padded(momentum_[axis] * step.momentum.now - damping_[axis] * step.force.now);
-      of(velocity_before_, axis) = padded(momentum_[axis] * step.momentum.before - damping_[axis] * step.force.before);
+    for (std::size_t i = 0; i < n; ++i) {
+      x[i] += (now_[i] - step.force.now[static_cast<int>(i)]) * lanes(applied);  // the same state of the tick
+      if (!is_finite(x[i])) return false;
     }
-    for (int i = 0; i < n; ++i) Phi_[static_cast<std::size_t>(i)] = padded(step.Phi.col(i));
     length_ = length;
-    now_ = now;
-    before_ = padded(step.force.before);
-    applied_ = padded(step.Phi.lazyProduct(step.force.now) + step.force.before);
-    feedthrough_ = step.force.now[n - 1];
+    const Axis momentum = lanes(momentum_), damping = lanes(damping_);
+    for (std::size_t i = 0; i < n; ++i) {
+      const int row = static_cast<int>(i);
+      now_[i] = step.force.now[row];
+      before_[i] = step.force.before[row];
+      applied_[i] = at_applied[row];
+      velocity_now_[i] = momentum * step.momentum.now[row] - damping * now_[i];
+      velocity_before_[i] = momentum * step.momentum.before[row] - damping * before_[i];
+      for (std::size_t j = 0; j < n; ++j) Phi_[i][j] = step.Phi(row, static_cast<int>(j));
+    }
+    keep(last_, x, Axis(hand_), Axis(velocity_));
+    feedthrough_ = now_[n - 1];
     loop_ = Scalar{1} / (Scalar{1} - feedthrough_);
     return true;
   }
 
-  alignas(alignment) States x_ = States::Zero();
-  alignas(alignment) std::array<Column, n> Phi_;
-  alignas(alignment) Column now_ = Column::Zero();
-  alignas(alignment) Column before_ = Column::Zero();
-  alignas(alignment) Column applied_ = Column::Zero();
-  alignas(alignment) States velocity_now_ = States::Zero();
-  alignas(alignment) States velocity_before_ = States::Zero();
-  Vector direct_;                    // c_(n-1) m/tau
+  // For ticks of this length:
+  alignas(alignment) States velocity_now_ = zero_states();
+  alignas(alignment) States velocity_before_ = zero_states();
+  alignas(alignment) Axis direct_ = Axis::Zero();  // c_(n-1) m/tau
+  Column now_{}, before_{}, applied_{};
+  std::array<Column, n> Phi_{};
   Scalar feedthrough_{0}, loop_{1};  // q_0, 1/(1 - q_0)
-  Duration length_{};                // of the tick for which these are
+  Duration length_{};
 
+  alignas(alignment) States ahead_ = zero_states();
   bool started_ = false;
   Time last_{};
-  Vector hand_ = Vector::Zero(), velocity_ = Vector::Zero();  // at the last tick
-  Vector force_ = Vector::Zero(), d_hat_ = Vector::Zero();    // last good ones
+  // Of the last tick. Its x is x_ + now_ F_device.
+  alignas(alignment) States x_ = zero_states();
+  alignas(alignment) Axis hand_ = Axis::Zero(), velocity_ = Axis::Zero();
+  alignas(alignment) Axis force_ = Axis::Zero(), d_hat_ = Axis::Zero();  // last good ones
 
   Equation equation_;
   ObserverForm form_;
