@@ -142,6 +142,13 @@ TEST_CASE("the converter reaches from -2 N m to a step below 2 N m, and says whe
 }
 
 // Under a torque below f_s a joint bends, by -z_s ln(1 - tau/f_s) at most after Dahl's law, and stays.
+TEST_CASE("a converter of more bits than an integer has, or less than none, has its step all the same") {
+  limpid::ArmHardware<1> hardware{.torque = Eigen::Matrix<double, 1, 1>(2.0), .converter_bits = 64};
+  CHECK(hardware.converter_step()[0] == std::ldexp(1.0, -62));
+  hardware.converter_bits = -1;
+  CHECK(hardware.converter_step()[0] == 0);
+}
+
 TEST_CASE("friction holds the device against less torque than its own, and lets it go under more") {
   const auto moved = [](const Vector& torque) {
     SimulatedFiveBar<> device({.realism = Realism::realistic, .converter_bits = 0});
@@ -232,6 +239,34 @@ TEST_CASE("where the loop would have to open the device stays before that") {
   CHECK(has(status, Status::not_finite | Status::limited));
   CHECK(limpid::is_finite(device.true_state()));
   CHECK(limpid::is_finite(FiveBar<>{}.at(device.true_state().q).position()));
+}
+
+TEST_CASE("before a singularity the device stops, and is drawn away again") {
+  for (const Realism realism : {Realism::ideal, Realism::realistic}) {
+    SimulatedFiveBar<> device({.realism = realism});
+    (void)device.advance(0ms, none);
+    int k = 1;
+    while (k < 2000 && device.advance(k * 1ms, {0, -2, 0}) == Status::ok) ++k;
+    REQUIRE(k < 2000);
+    const Eigen::Vector2d there = device.true_state().q;
+    CHECK(device.advance((k + 1) * 1ms, {0, 2, 0}) != Status::ok);  // the last force and its speed carry it on
+    CHECK(device.true_state().q == there);
+    CHECK(device.true_state().qdot == Eigen::Vector2d::Zero());
+    for (int j = 2; j <= 50; ++j) REQUIRE(device.advance((k + j) * 1ms, {0, 2, 0}) == Status::ok);
+    CHECK(tip(device)[1] > FiveBar<>{}.at(there).position()[1] + 0.01);
+  }
+}
+
+TEST_CASE("a force that it cannot follow does not hold the device for ever") {
+  for (const Realism realism : {Realism::ideal, Realism::realistic}) {
+    SimulatedFiveBar<> device({.realism = realism});
+    (void)device.advance(0ms, {1e300, 0, 0});
+    CHECK(device.advance(1ms, none) != Status::ok);
+    CHECK(device.advance(2ms, none) != Status::ok);
+    CHECK(device.true_state().q == SimulatedFiveBar<>::start_pose());
+    for (int k = 3; k <= 20; ++k) CHECK(device.advance(k * 1ms, {0.1, 0, 0}) == Status::ok);
+    CHECK(device.true_state().q != SimulatedFiveBar<>::start_pose());
+  }
 }
 
 TEST_CASE("a force that is not finite and time that does not advance move nothing") {

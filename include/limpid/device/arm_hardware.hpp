@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -32,8 +33,9 @@ struct ArmHardware {
 
   /// Between two levels of the converter, N m; 0 without one.
   [[nodiscard]] Vector converter_step() const noexcept {
-    if (converter_bits == 0) return Vector::Zero();
-    return torque / Scalar(1 << (converter_bits - 1));
+    using std::ldexp;
+    if (converter_bits <= 0) return Vector::Zero();
+    return torque / Scalar(ldexp(Scalar(1), converter_bits - 1));
   }
 
   /// The most that the motors give in the positive sense, N m.

@@ -20,6 +20,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace limpid {
 
@@ -40,7 +41,7 @@ enum class OperatorCoupling { on_arm, playback };
 /// hardware is as ArmHardware says.
 ///
 /// The arm has no mechanical stops: it can be moved beyond the limits of its joints. Where a robot has no pose, such as
-/// a five-bar that would have to open its loop, it stays before that, `not_finite`.
+/// a five-bar that would have to open its loop, it stays before that, `not_finite`, until it is drawn away.
 /// @realtime  advance, read, write: no allocation, no throw; read and write a few copies. advance is a simulation, not
 ///            a part of a hard real-time tick: it takes as many steps as the motion needs, up to the bound of 60 000
 ///            calls of the dynamics, after which it is `limited`
@@ -81,23 +82,25 @@ class SimulatedArm {
 
   /// Moves the arm to `now`. The first call only sets the clock.
   /// @param F_h  operator's force on the tip at `now`, N, base frame
-  /// @return     `ok`; or, with the arm where it was, `not_finite`, `clock_backwards`, or `limited` where the motion is
-  ///             too fast to be followed
+  /// @return     `ok`; or, with nothing changed, `not_finite`, `clock_backwards`, or `limited` where the motion is too
+  ///             fast to be followed. Where it could not be followed in the last call either, the arm is stopped where
+  ///             it was, and moves on from there, from `now`
   [[nodiscard]] Status advance(Time now, const Force& F_h) noexcept {
     if (!is_finite(F_h)) return Status::not_finite;
+    Status status = Status::ok;
     if (started_) {
       if (now <= now_) return Status::clock_backwards;
-      State state = state_;
-      const Status status = integrate(state, in_seconds<Scalar>(elapsed(now, now_)), F_h);
-      if (status != Status::ok) return status;
-      state_ = state;
+      status = integrate(state_, in_seconds<Scalar>(elapsed(now, now_)), F_h);
+      const bool again = std::exchange(lost_, status != Status::ok);
+      if (lost_ && !again) return status;
+      if (lost_) state_.template segment<joints>(joints).setZero();  // else what held it up would do so for ever
     }
     started_ = true;
     now_ = now;
     F_h_ = F_h;
     held_operator_torque_ = at(angles(state_)).jacobian().transpose() * F_h_;
     if (connected_) sense();
-    return Status::ok;
+    return status;
   }
 
   /// What the sensors gave at the last `advance`; `stale` where that was not at `now`, `no_sample` before the first.
@@ -238,6 +241,7 @@ class SimulatedArm {
   Force F_h_ = Force::Zero();                     // at now_, N
   Time now_{};
   bool started_ = false, connected_ = true;
+  bool lost_ = false;                   // whether the last call's motion could not be followed
   DeviceState<joints, Scalar> seen_{};  // what the sensors gave last
 };
 

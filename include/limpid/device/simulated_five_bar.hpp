@@ -17,8 +17,8 @@ namespace limpid {
 /// -2..2 N m, are 1 mN m or 5 mN at the tip, encoders have 2^16 steps a turn, 20 um at the tip, and Coulomb's friction
 /// in the joints, by Dahl's law with z_s = 2e-4 rad, takes about 20 mN at the tip.
 ///
-/// The loop closes and the tip is ahead of the elbows at q0, and stays so: at a singularity the device stops
-/// following, and says `not_finite` or `limited`.
+/// The loop closes and the tip is ahead of the elbows at q0, and stays so: before a singularity the device stops until
+/// it is drawn away, and says `not_finite` or `limited`.
 /// @realtime  as SimulatedArm
 template <Real Scalar_ = double>
 class SimulatedFiveBar : public SimulatedArm<FiveBar<Scalar_>> {
