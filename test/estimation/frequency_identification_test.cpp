@@ -129,6 +129,48 @@ TEST_CASE("what comes before the periods that count, and a mean force, do not ma
   CHECK(std::abs(other.response(T, omega, 5).response - plain.response) < 1e-10 * std::abs(plain.response));
 }
 
+TEST_CASE("an axis whose squares leave the range of the scalar is told as such") {
+  for (const double omega : {1e-310, 1e200}) {
+    const std::vector<ResponseSample<double>> samples{{omega, {2, -2}}};
+    CHECK_FALSE(identified(samples).physical);
+    CHECK(identified(samples).reason == "squares of the samples are out of the scalar's range");
+  }
+}
+
+TEST_CASE("a record without a force at omega, or with a velocity that is not finite, is refused") {
+  const double T = 1e-3, omega = 10 * std::numbers::pi, nan = std::numeric_limits<double>::quiet_NaN();
+  const Record moved(0.01, 0.022, T, omega, 1000);
+  Record constant = moved, torn = moved;
+  constant.force.assign(1000, 1.0);  // at omega only the rounding of its sum
+  CHECK_THROWS_AS((void)constant.response(T, omega, 2), std::invalid_argument);
+  for (const double bad : {nan, 1e308}) {  // 1e308: the response is out of range
+    torn.velocity[900] = bad;
+    CHECK_THROWS_AS((void)torn.response(T, omega, 2), std::invalid_argument);
+  }
+  torn.velocity[900] = 0;
+  torn.velocity[0] = nan;  // before the periods that count
+  CHECK(std::isfinite(torn.response(T, omega, 2).response.real()));
+  const std::vector<ResponseSample<double>> imaginary{{10, {1, nan}}};
+  CHECK_THROWS_WITH_AS((void)identified(imaginary), "identify_axis: response: expected finite, got nan",
+                       std::invalid_argument);
+}
+
+TEST_CASE("periods that are a whole number of ticks are so in float too") {
+  for (const int hertz : {1, 2, 4, 5, 8, 10, 20, 25, 40, 50}) {
+    CAPTURE(hertz);
+    const float T = 1e-3F, omega = 2 * std::numbers::pi_v<float> * static_cast<float>(hertz);
+    std::vector<float> force, velocity;
+    for (int k = 0; k < 4000; ++k) {
+      force.push_back(std::cos(omega * T * static_cast<float>(k)));
+      velocity.push_back(2 * force.back());
+    }
+    // off by the hold: an exponential of half a tick over a sinc; phases of up to 1257 rad have errors of 1e-4
+    const auto sample = response_of_record<float>(force, velocity, T, omega, 3 * hertz);
+    const float half = omega * T / 2;
+    CHECK(std::abs(sample.response - 2 * (std::sin(half) / half) * std::polar(1.0F, half)) < 1e-3F);
+  }
+}
+
 TEST_CASE("what cannot be is refused with its field") {
   const std::vector<ResponseSample<double>> empty{}, nan{{10, {NAN, 0}}}, none{{10, {1, 1}, 0}};
   const std::vector<ResponseSample<double>> standing{{0, {1, 1}}}, negative{{10, {1, 1}, -1}};

@@ -8,10 +8,26 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 
 namespace limpid {
+
+namespace detail {
+
+template <Real Scalar>
+[[nodiscard]] bool is_finite_response(const std::complex<Scalar>& z) noexcept {
+  return is_finite(z.real()) && is_finite(z.imag());
+}
+
+/// The part that is not finite, if any: what an error shows.
+template <Real Scalar>
+[[nodiscard]] Scalar worse_part(const std::complex<Scalar>& z) noexcept {
+  return is_finite(z.real()) ? z.imag() : z.real();
+}
+
+}  // namespace detail
 
 /// What a sine does to an axis: where F = Re F_0 exp(i omega t), its velocity is Re (v/F) F_0 exp(i omega t).
 template <Real Scalar = double>
@@ -50,9 +66,8 @@ template <Real Scalar>
   using std::sqrt;
   Scalar all{0}, real{0}, imaginary{0}, square{0}, square_omega{0};
   for (const auto& [omega, response, weight] : samples) {
-    const bool finite = is_finite(response.real()) && is_finite(response.imag());
     expect(is_finite(omega) && omega > Scalar{0}, "identify_axis: omega", "finite and > 0", omega);
-    expect(finite, "identify_axis: response", "finite", response.real());
+    expect(detail::is_finite_response(response), "identify_axis: response", "finite", detail::worse_part(response));
     expect(is_finite(weight) && weight >= Scalar{0}, "identify_axis: weight", "finite and >= 0", weight);
     const Scalar size = response.real() * response.real() + response.imag() * response.imag();
     all += weight;
@@ -72,6 +87,9 @@ template <Real Scalar>
   axis.misfit = sqrt(error / all);
   if (!(axis.mass > Scalar{0})) axis.reason = "the velocity leads the force: a spring, not a mass";
   if (!(axis.damping >= Scalar{0})) axis.reason = "the axis gives energy";
+  if (!is_finite(square) || !(square_omega > Scalar{0}) || !is_finite(square_omega) || !is_finite(axis.misfit)) {
+    axis.reason = "squares of the samples are out of the scalar's range";
+  }
   axis.physical = axis.reason.empty();
   return axis;
 }
@@ -85,14 +103,14 @@ template <Real Scalar>
 /// @param velocity  at the same ticks, m/s
 /// @param period    T, from tick to tick, s, > 0
 /// @param omega     rad/s, below pi/T
-/// @param periods   of the sine that count; they must be a whole number of ticks, to 1e-6 of one, or the transient and
-///                  the mean would leak in
-/// @throws std::invalid_argument  where an argument cannot be, the record is too short, or its force has nothing at
-///                                omega
+/// @param periods   of the sine that count; they must be a whole number of ticks, to 1e-6 of one and the rounding of
+///                  their number, or the transient and the mean would leak in
+/// @throws std::invalid_argument  where an argument cannot be, the record is too short or not finite where it counts,
+///                                or its force has nothing at omega but rounding
 template <Real Scalar>
 [[nodiscard]] ResponseSample<Scalar> response_of_record(std::span<const Scalar> force, std::span<const Scalar> velocity,
                                                         const Scalar& period, const Scalar& omega, int periods) {
-  using std::atan, std::cos, std::round, std::sin;
+  using std::abs, std::atan, std::cos, std::round, std::sin;
   using Complex = std::complex<Scalar>;
   const Scalar turn = Scalar{8} * atan(Scalar{1}), step = omega * period;
   expect(is_finite(period) && period > Scalar{0}, "response_of_record: period", "finite and > 0", period);
@@ -100,21 +118,30 @@ template <Real Scalar>
          "of (0, pi/period)", omega);
   expect(periods > 0, "response_of_record: periods", "> 0", periods);
   const Scalar exact = Scalar(periods) * turn / step, whole = round(exact), off = exact - whole;
-  expect(off * off < Scalar(1e-12), "response_of_record: periods", "a whole number of ticks long", exact);
+  const Scalar epsilon = std::numeric_limits<Scalar>::epsilon(), most_off = Scalar(1e-6) + Scalar{4} * epsilon * exact;
+  expect(off * off < most_off * most_off, "response_of_record: periods", "a whole number of ticks long", exact);
   expect(force.size() == velocity.size(), "response_of_record: velocity", "as many as forces", velocity.size());
   const bool long_enough = whole <= static_cast<Scalar>(force.size());
   expect(long_enough, "response_of_record: force", "as long as the periods that count", force.size());
   Complex F{}, v{};
+  Scalar all{0};
   for (std::size_t i = force.size() - static_cast<std::size_t>(whole); i < force.size(); ++i) {
     const Complex turned(cos(step * static_cast<Scalar>(i)), -sin(step * static_cast<Scalar>(i)));
     F += turned * force[i];
     v += turned * velocity[i];
+    all += abs(force[i]);
   }
   const Scalar size = F.real() * F.real() + F.imag() * F.imag();
-  expect(is_finite(size) && size > Scalar{0}, "response_of_record: force", "finite, with a part at omega", size);
+  // of the angles, of which the last is the largest, and of the sum; and what leaks in from the mean
+  const Scalar rounding = (epsilon * (step * static_cast<Scalar>(force.size()) + whole) + abs(off) / whole) * all;
+  expect(is_finite(size) && size > rounding * rounding, "response_of_record: force", "finite, with a part at omega",
+         size);
   // A held tick has the transform sinc exp(-i omega T/2), linear pieces sinc^2: its quotient is left.
   const Scalar half = step / Scalar{2}, sinc = sin(half) / half;
-  return {omega, v * Complex(F.real(), -F.imag()) * (Complex(cos(half), sin(half)) * Scalar(sinc / size))};
+  const Complex response = v * Complex(F.real(), -F.imag()) * (Complex(cos(half), sin(half)) * Scalar(sinc / size));
+  expect(detail::is_finite_response(response), "response_of_record: velocity", "finite, with a finite response",
+         detail::worse_part(response));
+  return {omega, response};
 }
 
 }  // namespace limpid
