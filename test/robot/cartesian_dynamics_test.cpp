@@ -76,6 +76,15 @@ TEST_CASE("a singular pose is told, and its answer is bounded") {
         Status::ok);
 }
 
+TEST_CASE("a tip that cannot move along any task axis is singular, and its answer is finite") {
+  const limpid::test::Pendulum<> arm;  // at q = 0 it moves along x
+  const JointState<1> still{Eigen::Matrix<double, 1, 1>(0.0), Eigen::Matrix<double, 1, 1>(1.0)};
+  const auto along = cartesian_dynamics(arm, {0.5, 4, 0.1}, still, limpid::TaskDirections<1>(0, 0, 1));
+  CHECK(along.status == Status::singular);
+  CHECK(along.J_inverse(0, 0) == 0);
+  CHECK(std::isfinite(along.force(Eigen::Matrix<double, 1, 1>(1.0), Eigen::Matrix<double, 1, 1>(1.0))[0]));
+}
+
 TEST_CASE("an answer that is not finite says so") {
   const FiveBar<> robot;
   const auto theta = robot.theta_of({});

@@ -59,7 +59,8 @@ namespace detail {
 ///
 /// J^-1 for m = n. For m < n, H^-1 J^T (J H^-1 J^T)^-1. With A = J J^T and J H^-1 J^T respectively, the pose
 /// counts as singular where det A is below 2^-14 of (tr A / m)^m, for two axes where a singular value is 1/256 of the
-/// other; there A has a multiple of the unit matrix added, which keeps the answer bounded.
+/// other; there A has a multiple of the unit matrix added, which keeps the answer bounded. A tip that cannot move along
+/// any axis has J^-1 = 0.
 template <int Joints, int Axes, Real Scalar>
 struct TaskInverse {
   using Wide = Eigen::Matrix<Scalar, Joints, Axes>;
@@ -86,7 +87,7 @@ struct TaskInverse {
         return;
       }
     }
-    if (singular) A.diagonal().array() += mean * (least - std::max(share, Scalar(0)));
+    if (singular) A.diagonal().array() += mean > Scalar(0) ? mean * (least - std::max(share, Scalar(0))) : Scalar(1);
     J_inverse = spread * A.inverse();
   }
 };
