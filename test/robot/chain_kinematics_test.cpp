@@ -204,4 +204,7 @@ TEST_CASE("settings that cannot serve are refused with their value") {
   CHECK_THROWS_WITH_AS(ChainKinematics<3>(omni_chain(), {.restarts = -1}),
                        "ChainKinematics: restarts: expected >= 0, got -1", std::invalid_argument);
   CHECK_THROWS_AS(ChainKinematics<3>(SerialChain<3>({.links = {}})), std::invalid_argument);
+  CHECK_THROWS_AS(ChainKinematics<3>(SerialChain<3>({.links = {}, .tip = {1e-160, 0, 0}})), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(ChainKinematics<3>(SerialChain<3>({.links = {{{}, {.a = 1e160}, {}}}})),
+                       "ChainKinematics: reach of the robot: expected finite and > 0, got inf", std::invalid_argument);
 }

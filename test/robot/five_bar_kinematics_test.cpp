@@ -156,6 +156,16 @@ TEST_CASE("off the plane the target's foot is met, and the status says that the 
   CHECK(kinematics.inverse(x + 1e-14 * up, {1, 0, 1e-16}, none).status == Status::ok);  // rounding of other frames
 }
 
+TEST_CASE("links so long or so short that the equations leave the range of the scalar are refused") {
+  for (const double length : {1e-80, 1e80}) {
+    const FiveBar<> robot({.base = length / 10, .proximal = length / 5, .distal = length / 5});
+    CHECK_THROWS_AS((void)FiveBarKinematics<>{robot}, std::invalid_argument);
+  }
+  const FiveBar<> galactic({.base = 1e20, .proximal = 2e20, .distal = 2e20});
+  const Eigen::Vector2d q(1.7, 0.8);
+  CHECK((FiveBarKinematics<>(galactic).inverse(galactic.at(q).position()).q - q).norm() < 1e-14);
+}
+
 TEST_CASE("rates beyond any range leave the joints at rest at the target") {
   const FiveBar<> robot;
   const FiveBarKinematics<> kinematics(robot);

@@ -47,7 +47,7 @@ requires(N >= 3) class ChainKinematics {
   };
 
   /// @throws std::invalid_argument  where a setting is out of range, or the reach is zero or, with a sliding joint that
-  ///                                has no limits, infinite
+  ///                                has no limits, infinite, or has no square in the scalar's range
   explicit ChainKinematics(const SerialChain<N, Scalar>& robot, const Settings& settings = Settings{})
       : robot_{robot},
         lower_{robot.limits().lower},
@@ -56,6 +56,9 @@ requires(N >= 3) class ChainKinematics {
         reach_{robot.reach()},
         tolerance_{32 * std::numeric_limits<Scalar>::epsilon() * reach_} {
     expect(is_finite(reach_) && reach_ > Scalar(0), "ChainKinematics: reach of the robot", "finite and > 0", reach_);
+    expect(is_finite(Scalar(reach_ * reach_)) &&
+               edge() * edge() > std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon(),
+           "ChainKinematics: reach of the robot", "one with a square in the scalar's range", reach_);
     expect(settings.most_steps > 0, "ChainKinematics: most_steps", "> 0", settings.most_steps);
     expect(settings.restarts >= 0, "ChainKinematics: restarts", ">= 0", settings.restarts);
   }

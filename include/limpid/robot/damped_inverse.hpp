@@ -23,8 +23,8 @@ class DampedInverse {
   using Point = Eigen::Matrix<Scalar, 3, 1>;
   using Jacobian = Eigen::Matrix<Scalar, 3, N>;
 
-  /// @param J     m/rad; finite
-  /// @param edge  smallest singular value that is left as it is, m/rad; > 0
+  /// @param J     m/rad; finite, and so are its squares
+  /// @param edge  smallest singular value that is left as it is, m/rad; its square is > 0
   DampedInverse(const Jacobian& J, const Scalar& edge) noexcept : J_{J} {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<Scalar, 3, 3>> directions(J * J.transpose());
     const Point& squares = directions.eigenvalues();  // ascending

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
@@ -40,6 +41,7 @@ class FiveBarKinematics {
   using Vector = Eigen::Matrix<Scalar, joints, 1>;
   using Point = Eigen::Matrix<Scalar, 3, 1>;
 
+  /// @throws std::invalid_argument  where fourth powers of the links' lengths leave the scalar's range
   explicit FiveBarKinematics(const FiveBar<Scalar>& robot)
       : lower_{robot.limits().lower},
         upper_{robot.limits().upper},
@@ -48,7 +50,12 @@ class FiveBarKinematics {
         l2_{robot.distal()},
         outer_{l1_ + l2_},
         inner_{innermost(l1_, l2_)} {
-    using std::cos, std::sin;
+    using std::cos, std::min, std::sin;
+    const Scalar longest = outer_ * outer_, shortest = min(l1_, l2_) * min(l1_, l2_);
+    expect(is_finite(Scalar(longest * longest)), "FiveBarKinematics: links", "lengths whose fourth power is finite",
+           outer_);
+    expect(shortest * shortest > std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon(),
+           "FiveBarKinematics: links", "lengths whose fourth power is in range", min(l1_, l2_));
     const Vector middle = (lower_ + upper_) / Scalar(2);
     middle_ = middle;
     cosines_ = {cos(middle[0]), cos(middle[1])};
