@@ -154,4 +154,6 @@ TEST_CASE("settings that cannot serve are refused, and the hand has no default")
   settings = {.filter = {.cutoff = 50}, .mass = {0.01, 0.02}, .damping = {0, 0}, .longest_step = 0ms};
   CHECK_THROWS_WITH_AS(Observer{settings}, "DisturbanceObserver: longest_step: expected > 0 s, got 0 s",
                        std::invalid_argument);
+  settings = {.filter = {.cutoff = 1e17}, .mass = {0.01, 0.02}, .damping = {0, 0}};  // 1 - q_0 would be 0
+  CHECK_THROWS_AS(Observer{settings}, std::invalid_argument);
 }

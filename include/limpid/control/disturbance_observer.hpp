@@ -97,6 +97,8 @@ class DisturbanceObserver {
            damping_);
     expect(longest_step_ > Duration::zero(), "DisturbanceObserver: longest_step", "> 0 s", longest_step_);
     tau_ = QFilterTraits<Q>::time_constant(settings.filter);
+    expect(in_seconds<Scalar>(longest_step_) / tau_ * std::numeric_limits<Scalar>::epsilon() < Scalar(0.125),
+           "DisturbanceObserver: longest_step", "short enough for 1 - q_0 not to be lost in rounding", longest_step_);
     momentum_ = settings.mass / tau_;
     expect(is_finite(momentum_), "DisturbanceObserver: filter", "a finite mass over its time constant", tau_);
     direct_ = lanes(equation_.c[n - 1] * momentum_);
