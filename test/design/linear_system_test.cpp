@@ -173,6 +173,49 @@ TEST_CASE("Lyapunov's equations are solved to their residual") {
   }
 }
 
+TEST_CASE("a lag keeps its norms where the squares of its entries leave the scalar's range") {
+  const auto lag = [](double a, double b, double c) {
+    const auto entry = [](double x) { return Eigen::MatrixXd::Constant(1, 1, x); };
+    return System{entry(-a), entry(b), entry(c), entry(0)};
+  };
+  const auto has = [](const System& G, double largest, double energy) {
+    const auto peak = hinf_norm(G);
+    const auto root = h2_norm(G);
+    CHECK(peak.verdict == NormVerdict::finite);
+    CHECK(close(peak.norm, largest, 1e-14));  // a few roundings
+    CHECK(peak.upper >= largest);
+    CHECK(root.verdict == NormVerdict::finite);
+    CHECK(close(root.norm, energy, 1e-14));
+  };
+  for (const double s : {1e-300, 1e-170, 1e-150, 1e150, 1e170, 1e300}) {
+    CAPTURE(s);
+    has(lag(s, s, 1), 1, std::sqrt(s / 2));  // s/(p + s)
+    has(lag(1, s, 1), s, s / std::sqrt(2.0));
+    has(lag(1, 1, s), s, s / std::sqrt(2.0));
+    has(lag(1, s, 1 / s), 1, 1 / std::sqrt(2.0));
+    CHECK(close(response(lag(s, s, 1), s), 1.0 / Complex(1, 1), 1e-14));
+    const auto through = hinf_norm(static_gain<double>(Eigen::MatrixXd::Constant(2, 2, s)));
+    CHECK(close(through.norm, 2 * s, 1e-14));
+  }
+}
+
+TEST_CASE("rates twenty decades apart are not taken for a singular matrix") {
+  const auto diagonal = [](double first, double second) {
+    return Eigen::MatrixXd(Eigen::Vector2d(first, second).asDiagonal());
+  };
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(2, 2);
+  const System G{diagonal(-1e20, -1e-3), I, I, 0 * I};
+  const System tustin = discretise(G, 1.0, Discretisation::tustin);
+  CHECK(close(tustin.A(0, 0), -1, 1e-15));
+  CHECK(close(tustin.A(1, 1), (1 - 5e-4) / (1 + 5e-4), 1e-15));
+  const System backward = discretise(G, 1.0, Discretisation::backward_euler);
+  CHECK(close(backward.A(0, 0), 1e-20, 1e-15));
+  CHECK(close(backward.A(1, 1), 1 / 1.001, 1e-15));
+  const System loop = feedback(static_gain<double>(diagonal(1e20, 1)), static_gain<double>(I));
+  CHECK(close(loop.D(0, 0), 1, 1e-15));
+  CHECK(close(loop.D(1, 1), 0.5, 1e-15));
+}
+
 TEST_CASE("systems that cannot be are refused by name") {
   const auto refused = [](const auto& act, const char* text) {
     CHECK_THROWS_WITH_AS(act(), doctest::Contains(text), std::invalid_argument);
@@ -186,6 +229,14 @@ TEST_CASE("systems that cannot be are refused by name") {
   refused([&] { (void)series(G, state_space(quotient({1}, {1, 0.5}, 0.1))); }, "StateSpace: period");
   refused([&] { (void)frequency_response(G, std::nan("")); }, "frequency_response: omega");
   refused([] { (void)first_order_weight(-1.0); }, "first_order_weight: corner");
+  refused(
+      [] {
+        (void)feedback(static_gain<double>(Eigen::MatrixXd::Constant(1, 1, -1)),
+                       static_gain<double>(Eigen::MatrixXd::Constant(1, 1, 1)));
+      },
+      "feedback: I + D_H D_G");
+  const Eigen::MatrixXd many = -Eigen::MatrixXd::Identity(101, 101);
+  refused([&] { (void)lyapunov<double>(many, many); }, "lyapunov: A: expected at most 100 states, got 101");
   G.B(0, 0) = std::nan("");
   refused([&] { (void)h2_norm(G); }, "StateSpace: B");
   G.B = Eigen::MatrixXd::Zero(2, 1);

@@ -64,6 +64,12 @@ template <Real Scalar>
   return d.cwiseInverse().asDiagonal() * A * d.asDiagonal();
 }
 
+/// The largest sum of magnitudes in a row: a norm that takes no squares.
+template <typename Derived>
+[[nodiscard]] typename Derived::Scalar largest_row(const Eigen::MatrixBase<Derived>& A) {
+  return A.cwiseAbs().rowwise().sum().maxCoeff();
+}
+
 /// Eigenvalues of the balanced matrix; none where it has entries that are not finite or the iteration does not end.
 template <Real Scalar>
 [[nodiscard]] std::vector<std::complex<Scalar>> eigenvalues_of(const DynamicMatrix<Scalar>& A) {

@@ -27,11 +27,19 @@ template <Real Scalar>
   return z.real() * z.real() + z.imag() * z.imag();
 }
 
+/// The larger of the parts, whose square neither over- nor underflows.
+template <Real Scalar>
+[[nodiscard]] Scalar largest_part(const std::complex<Scalar>& z) {
+  using std::abs;
+  return std::max<Scalar>(abs(z.real()), abs(z.imag()));
+}
+
 /// a/b without the tests for infinities of the language's own.
 template <Real Scalar>
 [[nodiscard]] std::complex<Scalar> quotient(const std::complex<Scalar>& a, const std::complex<Scalar>& b) {
-  const Scalar square = squared_size(b);
-  return {(a.real() * b.real() + a.imag() * b.imag()) / square, (a.imag() * b.real() - a.real() * b.imag()) / square};
+  const Scalar unit = largest_part(b), re = b.real() / unit, im = b.imag() / unit, square = re * re + im * im;
+  return {(a.real() / square * re + a.imag() / square * im) / unit,
+          (a.imag() / square * re - a.real() / square * im) / unit};
 }
 
 /// X of A X = B, by elimination with row pivots; not finite where A is singular.
@@ -41,7 +49,7 @@ template <Real Scalar>
   for (Eigen::Index k = 0; k < n; ++k) {
     Eigen::Index pivot = k;
     for (Eigen::Index i = k + 1; i < n; ++i) {
-      if (squared_size(A(i, k)) > squared_size(A(pivot, k))) pivot = i;
+      if (largest_part(A(i, k)) > largest_part(A(pivot, k))) pivot = i;
     }
     for (Eigen::Index j = k; j < n; ++j) std::swap(A(k, j), A(pivot, j));
     for (Eigen::Index j = 0; j < m; ++j) std::swap(B(k, j), B(pivot, j));
@@ -80,7 +88,8 @@ struct LargestSingular {
   Scalar slope{0};
 };
 
-/// One-sided Jacobi rotations make the columns of G orthogonal; those of `slope` turn with them.
+/// One-sided Jacobi rotations make the columns of G orthogonal; those of `slope` turn with them. In units of G's
+/// largest entry, so that squares neither over- nor underflow.
 template <Real Scalar>
 [[nodiscard]] LargestSingular<Scalar> largest_singular(ComplexMatrix<Scalar> G, ComplexMatrix<Scalar> slope) {
   using std::abs, std::sqrt;
@@ -91,6 +100,19 @@ template <Real Scalar>
     for (Eigen::Index i = 0; i < A.rows(); ++i) sum += Complex(A(i, p).real(), -A(i, p).imag()) * B(i, q);
     return sum;
   };
+  Scalar unit{0};
+  for (Eigen::Index p = 0; p < G.cols(); ++p) {
+    for (Eigen::Index i = 0; i < G.rows(); ++i) {
+      if (!is_finite(G(i, p).real()) || !is_finite(G(i, p).imag())) {
+        return {std::numeric_limits<Scalar>::infinity(), Scalar{0}};
+      }
+      unit = std::max<Scalar>(unit, largest_part(G(i, p)));
+    }
+  }
+  if (!(unit > Scalar{0})) return {};
+  for (Eigen::Index p = 0; p < G.cols(); ++p) {
+    for (Eigen::Index i = 0; i < G.rows(); ++i) G(i, p) = Complex(G(i, p).real() / unit, G(i, p).imag() / unit);
+  }
   bool turned = true;
   for (int sweep = 0; turned && sweep < most_sweeps; ++sweep) {
     turned = false;
@@ -117,10 +139,9 @@ template <Real Scalar>
   LargestSingular<Scalar> largest;
   for (Eigen::Index p = 0; p < G.cols(); ++p) {
     const Scalar value = sqrt(dot(G, p, G, p).real());
-    if (!is_finite(value)) return {std::numeric_limits<Scalar>::infinity(), Scalar{0}};
     if (value > largest.value) largest = {value, dot(G, p, slope, p).real() / value};
   }
-  return largest;
+  return {largest.value * unit, largest.slope};
 }
 
 }  // namespace limpid::detail

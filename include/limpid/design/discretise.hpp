@@ -9,7 +9,6 @@
 #include <limpid/design/state_space.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 namespace limpid {
 
@@ -41,10 +40,9 @@ template <Real Scalar>
   const bool tustin = method == Discretisation::tustin;
   const Scalar h = tustin ? Scalar(period / Scalar{2}) : period;
   const Matrix I = Matrix::Identity(n, n);
-  const Eigen::FullPivLU<Matrix> implicit(Matrix(I - G.A * h));
-  expect(implicit.isInvertible(), "discretise: A", tustin ? "without an eigenvalue 2/T" : "without an eigenvalue 1/T",
-         G.A);
-  const Matrix R = implicit.inverse(), B = R * G.B * period;
+  const Matrix R = detail::inverse_of<Scalar>(I - G.A * h);
+  expect(R.size() > 0, "discretise: A", tustin ? "without an eigenvalue 2/T" : "without an eigenvalue 1/T", G.A);
+  const Matrix B = R * G.B * period;
   if (tustin) return {Matrix(R * (I + G.A * h)), B, Matrix(G.C * R), Matrix(G.D + G.C * B / Scalar{2}), period};
   return {R, B, Matrix(G.C * R), Matrix(G.D + G.C * B), period};
 }

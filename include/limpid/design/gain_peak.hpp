@@ -97,15 +97,16 @@ class GainCurve {
     std::vector<Scalar> grid{Scalar{0}};
     Scalar slowest = infinity_of<Scalar>(), fastest{0};
     for (const auto& p : eigenvalues_of<Scalar>(G_.A)) {
-      const Scalar size = sqrt(p.real() * p.real() + p.imag() * p.imag());
-      if (!(size > Scalar{0}) || !is_finite(size)) continue;
+      const Scalar unit = largest_part(p);
+      if (!(unit > Scalar{0}) || !is_finite(unit)) continue;
+      const Scalar size = unit * sqrt(squared_size(Complex(p.real() / unit, p.imag() / unit)));
       slowest = std::min<Scalar>(slowest, size);
       fastest = std::max<Scalar>(fastest, size);
       grid.push_back(size);
       grid.push_back(abs(p.imag()));
     }
     if (!(fastest > Scalar{0})) return grid;
-    const Scalar from = log(slowest / Scalar(100)), to = log(fastest * Scalar(100));
+    const Scalar from = log(slowest) - log(Scalar(100)), to = log(fastest) + log(Scalar(100));
     const int count = static_cast<int>(std::min<Scalar>(Scalar(most), (to - from) * Scalar(10.5)));
     for (int i = 0; i <= count; ++i) grid.push_back(exp(from + (to - from) * Scalar(i) / Scalar(count)));
     std::sort(grid.begin(), grid.end());

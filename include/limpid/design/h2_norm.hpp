@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 
 namespace limpid {
@@ -16,8 +17,9 @@ namespace limpid {
 /// ||G||_2
 template <Real Scalar = double>
 struct H2Norm {
-  Scalar norm{0};     ///< infinite unless the verdict is `finite`; never NaN
-  Scalar squared{0};  ///< the energy itself, which the paper calls J
+  Scalar norm{0};  ///< infinite unless the verdict is `finite`; never NaN
+  Scalar squared{
+      0};  ///< the energy itself, which the paper calls J; zero or infinite where it leaves the scalar's range
   NormVerdict verdict = NormVerdict::undecided;
 };
 
@@ -28,6 +30,26 @@ template <Real Scalar>
   return {infinity_of<Scalar>(), infinity_of<Scalar>(), verdict};
 }
 
+/// sqrt(trace C X C') of balanced states, B and C in units of their largest entry: no square over- or underflows.
+template <Real Scalar>
+[[nodiscard]] Scalar norm_of_states(const StateSpace<Scalar>& G) {
+  using std::sqrt;
+  using Matrix = DynamicMatrix<Scalar>;
+  if (G.order() == 0 || G.B.isZero(Scalar{0}) || G.C.isZero(Scalar{0})) return Scalar{0};
+  const Scalar by_B = G.B.cwiseAbs().maxCoeff(), by_C = G.C.cwiseAbs().maxCoeff();
+  const Matrix B = G.B / by_B, C = G.C / by_C;
+  const Matrix X = LyapunovSolver<Scalar>(G.A, G.is_discrete()).solve(Matrix(B * B.transpose()));
+  const Scalar squared = Matrix(C * X).cwiseProduct(C).sum();
+  return squared < Scalar{0} ? Scalar{0} : Scalar(sqrt(squared) * by_B * by_C);  // below zero: a zero, rounded
+}
+
+/// sqrt(trace D D')
+template <Real Scalar>
+[[nodiscard]] Scalar norm_of_through(const StateSpace<Scalar>& G) {
+  const Scalar unit = G.D.cwiseAbs().maxCoeff();
+  return unit > Scalar{0} ? Scalar(unit * DynamicMatrix<Scalar>(G.D / unit).norm()) : Scalar{0};
+}
+
 }  // namespace detail
 
 /// The norm that the paper's index (11) is the square of, by a Lyapunov equation:
@@ -36,26 +58,21 @@ template <Real Scalar>
 ///
 /// and in discrete time the sum of the squares of the impulse response, trace (C X C' + D D'), A X A' - X + B B' = 0.
 /// Infinite with the verdict where it is not stable, or continuous with D != 0. Off line: 20 us for six states.
-/// @throws std::invalid_argument  where the system is refused
+/// @throws std::invalid_argument  where the system is refused or has more states than `lyapunov` takes
 template <Real Scalar>
 [[nodiscard]] H2Norm<Scalar> h2_norm(const StateSpace<Scalar>& system) {
   using std::sqrt;
-  using Matrix = detail::DynamicMatrix<Scalar>;
   if (!is_stable(system)) {
     const bool known = is_finite(stability_excess(system));
     return detail::no_h2_norm<Scalar>(known ? NormVerdict::unstable : NormVerdict::undecided);
   }
   if (!system.is_discrete() && !system.D.isZero(Scalar{0})) return detail::no_h2_norm<Scalar>(NormVerdict::unbounded);
   const StateSpace<Scalar> G = detail::balanced_states(system);
-  Scalar squared = G.D.squaredNorm();
-  if (G.order() > 0) {
-    const detail::LyapunovSolver<Scalar> solver(G.A, G.is_discrete());
-    const Matrix X = solver.solve(Matrix(G.B * G.B.transpose()));
-    squared += Matrix(G.C * X).cwiseProduct(G.C).sum();
-  }
-  if (!is_finite(squared)) return detail::no_h2_norm<Scalar>(NormVerdict::undecided);
-  if (squared < Scalar{0}) squared = Scalar{0};  // a zero, rounded
-  return {sqrt(squared), squared, NormVerdict::finite};
+  const Scalar states = detail::norm_of_states(G), through = detail::norm_of_through(G);
+  const Scalar larger = std::max<Scalar>(states, through), part = std::min<Scalar>(states, through) / larger;
+  const Scalar norm = larger > Scalar{0} ? Scalar(larger * sqrt(Scalar{1} + part * part)) : states;
+  if (!is_finite(norm)) return detail::no_h2_norm<Scalar>(NormVerdict::undecided);
+  return {norm, norm * norm, NormVerdict::finite};
 }
 
 }  // namespace limpid

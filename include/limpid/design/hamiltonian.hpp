@@ -33,7 +33,7 @@ template <Real Scalar>
   using std::abs;
   using Matrix = DynamicMatrix<Scalar>;
   const Eigen::Index n = G.order(), m = G.inputs(), p = G.outputs();
-  if (n == 0) return {true, {}};
+  if (n == 0 || G.B.isZero(Scalar{0}) || G.C.isZero(Scalar{0})) return {true, {}};  // the gain is that of D
   // with R and S divided by g^2
   const Matrix D = G.D / level;
   const Eigen::PartialPivLU<Matrix> R(Matrix(D.transpose() * D - Matrix::Identity(m, m)));
@@ -44,7 +44,7 @@ template <Real Scalar>
   const auto eigenvalues = eigenvalues_of<Scalar>(H);
   if (eigenvalues.empty()) return {};
   const Scalar rounding =
-      Scalar(static_cast<int>(128 * n)) * std::numeric_limits<Scalar>::epsilon() * balanced<Scalar>(H).norm();
+      Scalar(static_cast<int>(128 * n)) * std::numeric_limits<Scalar>::epsilon() * largest_row(balanced<Scalar>(H));
   Crossings<Scalar> crossings{true, {}};
   for (const auto& s : eigenvalues) {
     if (abs(s.real()) <= rounding && s.imag() >= Scalar{0}) crossings.frequencies.push_back(s.imag());

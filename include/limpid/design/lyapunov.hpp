@@ -20,9 +20,11 @@ template <Real Scalar>
 class LyapunovSolver {
  public:
   using Matrix = DynamicMatrix<Scalar>;
+  static constexpr Eigen::Index most_states = 100;  // 200 MB and some 10 s in double
 
   LyapunovSolver(const Matrix& A, bool discrete) : A_{A}, discrete_{discrete} {
     const Eigen::Index n = A.rows(), unknowns = n * (n + 1) / 2;
+    expect(n <= most_states, "lyapunov: A", "at most 100 states", n);
     Matrix M = Matrix::Zero(unknowns, unknowns);
     for (Eigen::Index j = 0; j < n; ++j) {
       for (Eigen::Index i = j; i < n; ++i) set_row(M, i, j);
@@ -93,7 +95,7 @@ template <Real Scalar>
 
 /// X of A X + X A' + Q = 0. The solution is unique where no two eigenvalues of A add up to zero, as with a stable A;
 /// not finite where the equation is singular. Off line: n^6/12 flops, 10 us for n = 6, a second for n = 60.
-/// @throws std::invalid_argument  where A or Q is not finite, the sizes do not fit or Q is not symmetric
+/// @throws std::invalid_argument  where A or Q is not finite, the sizes do not fit, Q is not symmetric or n above 100
 template <Real Scalar>
 [[nodiscard]] detail::DynamicMatrix<Scalar> lyapunov(const detail::DynamicMatrix<Scalar>& A,
                                                      const detail::DynamicMatrix<Scalar>& Q) {

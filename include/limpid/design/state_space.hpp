@@ -85,11 +85,30 @@ template <Real Scalar>
   return M;
 }
 
-/// diag(d)^-1 A diag(d), diag(d)^-1 B, C diag(d): the same system in states of like size.
+/// diag(d)^-1 A diag(d), diag(d)^-1 B, C diag(d): the same system in states of like size, with B and C of like size.
 template <Real Scalar>
 [[nodiscard]] StateSpace<Scalar> balanced_states(const StateSpace<Scalar>& G) {
   const DynamicVector<Scalar> d = balancing<Scalar>(G.A), inverse = d.cwiseInverse();
-  return {inverse.asDiagonal() * G.A * d.asDiagonal(), inverse.asDiagonal() * G.B, G.C * d.asDiagonal(), G.D, G.period};
+  StateSpace<Scalar> same{inverse.asDiagonal() * G.A * d.asDiagonal(), inverse.asDiagonal() * G.B, G.C * d.asDiagonal(),
+                          G.D, G.period};
+  if (same.B.isZero(Scalar{0}) || same.C.isZero(Scalar{0})) return same;
+  Scalar B = same.B.cwiseAbs().maxCoeff(), C = same.C.cwiseAbs().maxCoeff(), factor{1};
+  if (!is_finite(B) || !is_finite(C)) return same;
+  for (; B < C / Scalar{4}; factor *= Scalar{2}) B *= Scalar{2}, C /= Scalar{2};
+  for (; C < B / Scalar{4}; factor /= Scalar{2}) C *= Scalar{2}, B /= Scalar{2};
+  same.B *= factor;
+  same.C /= factor;
+  return same;
+}
+
+/// M^-1, M with rows of any units; empty where M is singular to within rounding or its numbers are too large.
+template <Real Scalar>
+[[nodiscard]] DynamicMatrix<Scalar> inverse_of(const DynamicMatrix<Scalar>& M) {
+  const DynamicVector<Scalar> size = M.cwiseAbs().rowwise().maxCoeff(), per_size = size.cwiseInverse();
+  if (!is_finite(M) || !is_finite(per_size)) return {};
+  const Eigen::FullPivLU<DynamicMatrix<Scalar>> lu(DynamicMatrix<Scalar>(per_size.asDiagonal() * M));
+  if (!lu.isInvertible()) return {};
+  return lu.inverse() * per_size.asDiagonal();
 }
 
 template <Real Scalar>
@@ -148,9 +167,9 @@ template <Real Scalar>
   detail::expect_connectable(G, H);
   expect(H.inputs() == G.outputs(), "feedback: H", "as many inputs as G has outputs", H.inputs());
   expect(H.outputs() == G.inputs(), "feedback: H", "as many outputs as G has inputs", H.outputs());
-  const Eigen::FullPivLU<Matrix> loop(Matrix(Matrix::Identity(G.inputs(), G.inputs()) + H.D * G.D));
-  expect(loop.isInvertible(), "feedback: I + D_H D_G", "invertible", H.D * G.D);
-  const Matrix E = loop.inverse();  // e = u - H(y) = E (u - C_H x_H - D_H C_G x_G),   y = C_G x_G + D_G e
+  const Matrix loop = Matrix::Identity(G.inputs(), G.inputs()) + H.D * G.D, E = detail::inverse_of<Scalar>(loop);
+  expect(E.size() > 0, "feedback: I + D_H D_G", "invertible", loop);
+  // e = u - H(y) = E (u - C_H x_H - D_H C_G x_G),   y = C_G x_G + D_G e
   const Matrix from_G = -E * H.D * G.C, from_H = -E * H.C;
   const Matrix C_G = G.C + G.D * from_G, C_H = G.D * from_H, D = G.D * E;
   return {detail::blocks<Scalar>(G.A + G.B * from_G, G.B * from_H, H.B * C_G, H.A + H.B * C_H),
@@ -190,7 +209,7 @@ template <Real Scalar>
 [[nodiscard]] bool is_stable(const StateSpace<Scalar>& G) {
   const Scalar excess = stability_excess(G);
   if (G.order() == 0) return true;
-  const Scalar size = detail::balanced<Scalar>(G.A).norm();
+  const Scalar size = detail::largest_row(detail::balanced<Scalar>(G.A));
   return excess < -Scalar{4} * std::numeric_limits<Scalar>::epsilon() * size;
 }
 
