@@ -207,6 +207,39 @@ TEST_CASE("a weight that lets high frequencies through makes the index infinite"
   CHECK(std::isinf(index.J));
 }
 
+TEST_CASE("the searches end for masses, walls and periods at the ends of the scalar's range") {
+  for (const HoldModel hold : {HoldModel::second_order, HoldModel::first_order}) {
+    for (const double size : {1e-300, 1e300}) {
+      for (const double period : {1e-300, 1e-3, 1e300}) {
+        auto problem = paper(hold);
+        problem.plant.mass = problem.wall.stiffness = size;
+        problem.period = period;
+        const auto optimum = transparency_optimum(problem);
+        CHECK(optimum.index.J >= 0);
+        CHECK((std::isfinite(optimum.index.J) || optimum.index.verdict != NormVerdict::finite));
+        CHECK_FALSE(std::isnan(robust_interval(problem, size).lower));
+      }
+    }
+  }
+}
+
+TEST_CASE("with the exact hold and a device almost without mass the limit is K_c = pi^2 b/(2 T)") {
+  auto problem = paper(HoldModel::exact);
+  problem.plant = {1e-20, 1};  // b s^2 T + K_c (1 - exp(-s T)) has its roots on the axis at omega = pi/T
+  const double limit = pi * pi / 2 / problem.period;
+  CHECK(is_nominally_stable(problem, {limit * 0.999, 0}));
+  CHECK_FALSE(is_nominally_stable(problem, {limit * 1.001, 0}));
+}
+
+TEST_CASE("with the exact hold a weight far beyond the ripple of the hold ends, with what it lets through of 1/B^2") {
+  for (const double corner : {1e6, 1e9}) {
+    const auto index = transparency_index(paper(HoldModel::exact, corner), {1000, 15});
+    CHECK(index.verdict == NormVerdict::finite);
+    CHECK(agrees(index.J, corner / 2, 0.01));  // B = 1; what is missing is of the wall's 1000 rad/s
+    CHECK(index.error < 1e-6 * index.J);
+  }
+}
+
 TEST_CASE("bad settings are refused by name") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   auto problem = paper(HoldModel::second_order);

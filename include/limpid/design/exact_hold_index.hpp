@@ -5,6 +5,7 @@
 #include <limpid/design/frequency_response.hpp>
 #include <limpid/design/gauss_quadrature.hpp>
 #include <limpid/design/h2_norm.hpp>
+#include <limpid/design/hinf_norm.hpp>
 #include <limpid/design/transparency_model.hpp>
 #include <limpid/design/transparency_problem.hpp>
 
@@ -40,18 +41,22 @@ class ExactHoldIndex {
     using std::sqrt;
     r_ = sqrt(problem.wall.stiffness / m_);
     w1_ = balanced_states(problem.weight);
+    // Where the weight lets through what is far above the hold's ripple, its bound serves the tail.
+    if (w1_.A.norm() > ripple()) most_w1_ = hinf_norm(w1_).upper;
   }
 
   [[nodiscard]] IndexSlopes<Scalar> run() const {
     using std::abs, std::acos;
-    const Scalar pi = acos(Scalar{-1}), period = Scalar{2} * pi / problem_.period;
+    const Scalar pi = acos(Scalar{-1}), period = ripple();
     const H2Norm<Scalar> reference = h2_norm(weighted_error(w1_, problem_.wall, reference_system()));
     if (reference.verdict != NormVerdict::finite) {
       return {reference.squared, Scalar{0}, Scalar{0}, infinity_of<Scalar>(), reference.verdict};
     }
     const Scalar epsilon = std::numeric_limits<Scalar>::epsilon(), scale = reference.squared;
-    Scalar end = std::max<Scalar>(Scalar{4} * period, Scalar{4} * w1_.A.norm());
-    for (int i = 0; i < most_doublings && !(tail(end) <= epsilon * scale); ++i) end *= Scalar{2};
+    const Scalar most =
+        std::min<Scalar>(Scalar(512) * std::max<Scalar>(period, w1_.A.norm()), Scalar(most_periods) * period);
+    Scalar end = Scalar{4} * period;
+    while (end < most && !(tail(end) <= epsilon * scale)) end *= Scalar{2};
     // Parts that double from far below the slowest rate to a period of the hold's ripple, which then they keep.
     const GaussQuadrature<Scalar, 3> quadrature;
     std::array<Scalar, 3> sum{};
@@ -71,8 +76,13 @@ class ExactHoldIndex {
   }
 
  private:
-  static constexpr int most_doublings = 7;
+  static constexpr int most_periods = 4096;
 
+  /// Of the hold, rad/s.
+  [[nodiscard]] Scalar ripple() const {
+    using std::acos;
+    return Scalar{2} * acos(Scalar{-1}) / problem_.period;
+  }
   [[nodiscard]] Scalar rho() const { return r_ * (m_ * r_ - b_); }
 
   // Y_0 = (s + r)/(m (s^2 + (r + b/m) s + r^2))
@@ -102,7 +112,8 @@ class ExactHoldIndex {
             Scalar{2} * weight * real_part(error, by_K_c)};
   }
 
-  /// A bound of the integral beyond `end`: the integrand falls at least as w^-5 from its bound there, by
+  /// A bound of the integral beyond `end`: the integrand falls at least as w^-5 from its bound there, or as w^-2 where
+  /// nothing but a bound of w1 is known, by
   ///
   ///     Y_t - Y_0 = (rho/(s + r) - ZOH C) Y_t Y_0,   |ms + b + x| >= m w - |x|,   |w1| <= |C||B|/(w - |A|)
   [[nodiscard]] Scalar tail(const Scalar& end) const {
@@ -110,22 +121,24 @@ class ExactHoldIndex {
     const auto& [K, B] = problem_.wall;
     const Scalar control = Scalar{2} / (end * problem_.period) * (abs(C_.B_c) + abs(C_.K_c) / end);
     const Scalar bend = abs(rho()) / end, least = m_ * end - control, least_0 = m_ * end - bend;
-    const Scalar room = end - w1_.A.norm();
-    if (!(least > Scalar{0}) || !(least_0 > Scalar{0}) || !(room > Scalar{0})) return infinity_of<Scalar>();
+    if (!(least > Scalar{0}) || !(least_0 > Scalar{0})) return infinity_of<Scalar>();
     const Scalar difference = (bend + control) / (least * least_0);
-    Scalar w1 = w1_.C.norm() * w1_.B.norm() / room, felt = end / K;
+    const Scalar room = end - w1_.A.norm();
+    Scalar w1 = room > Scalar{0} ? Scalar(w1_.C.norm() * w1_.B.norm() / room) : infinity_of<Scalar>(), felt = end / K;
     if (B > Scalar{0}) {
       felt = std::min<Scalar>(felt, Scalar{1} / B);
     } else {
       w1 *= w1_.A.norm() / end;  // C B = 0
     }
+    const bool falls = !(most_w1_ < w1);
+    w1 = std::min<Scalar>(w1, most_w1_);
     const Scalar bound = w1 * w1 * difference * (Scalar{2} * (felt + Scalar{1} / least_0) + difference);
-    return bound * end / (Scalar{3} * acos(Scalar{-1}));  // w^-4 where felt still grows
+    return bound * end / ((falls ? Scalar{3} : Scalar{1}) * acos(Scalar{-1}));  // w^-4 where felt still grows
   }
 
   TransparencyProblem<Scalar> problem_;
   WallFeedback<Scalar> C_;
-  Scalar m_, b_, r_{0};
+  Scalar m_, b_, r_{0}, most_w1_ = infinity_of<Scalar>();
   StateSpace<Scalar> w1_;
 };
 

@@ -15,9 +15,10 @@
 namespace limpid::detail {
 
 /// The loop with the exact hold, model C, along the imaginary axis. q = s (m s + b) + ZOH (B_c s + K_c) and
-/// N = s (alpha m s + beta b) have no poles, and with |ZOH| <= 1 and |dZOH/dw| <= T/2 their slopes are bounded:
+/// N = s (alpha m s + beta b) have no poles, and with |ZOH| <= min(1, 2/(w T)) and |dZOH/dw| <= min(T/2, 2/w) their
+/// slopes are bounded:
 ///
-///     |q'| <= 2 m w + b + |B_c| + (|K_c| + |B_c| w) T/2,     |N'| <= 2 alpha m w + beta b
+///     |q'| <= 2 m w + b + |B_c| |ZOH| + (|K_c| + |B_c| w) |dZOH/dw|,     |N'| <= 2 alpha m w + beta b
 ///
 /// so that a value speaks for a cell about it, and a finite number of cells for the axis.
 template <Real Scalar>
@@ -29,22 +30,25 @@ class ExactHoldLoop {
       : problem_{problem}, C_{C}, m_{problem.plant.mass}, b_{problem.plant.damping}, T_{problem.period} {}
 
   /// Whether q has no zero in the closed right half plane, by the argument of q along the axis, in steps over which it
-  /// cannot turn by more than 30 degrees; no where q comes to zero on the axis to within rounding.
+  /// cannot turn by more than 30 degrees; no where q comes to zero on the axis to within rounding, or 400 000 steps
+  /// do not tell.
   ///
   /// For Re s >= 0 it is |ZOH| <= 1, so beyond the end q winds as m s^2.
   [[nodiscard]] bool is_stable() const {
     using std::abs, std::atan2, std::floor, std::sqrt;
     const Scalar first = b_ + abs(C_.B_c), end = (first + sqrt(first * first + Scalar{2} * m_ * abs(C_.K_c))) / m_;
     const Scalar least = Scalar(16) * std::numeric_limits<Scalar>::epsilon();
+    if (!is_finite(end)) return false;
     Scalar omega{0}, step = end / Scalar(64), turned{0};
     Complex q = characteristic(problem_, C_, omega);
-    while (omega < end) {
+    for (int steps = 0; omega < end; ++steps) {
       const Scalar size = size_of(q);
       step = std::min<Scalar>(Scalar{2} * step, end - omega);
-      while (slope_bound(omega + step) * step > size / Scalar{2}) {
+      while (slope_bound(omega, omega + step) * step > size / Scalar{2}) {
         step /= Scalar{2};
-        if (!(step > least * (end + omega))) return false;
+        if (!(step > least * omega)) return false;
       }
+      if (steps == most_cells) return false;
       omega = end - omega > step ? Scalar(omega + step) : end;
       const Complex next = characteristic(problem_, C_, omega), turn = over(next, q);
       turned += atan2(turn.imag(), turn.real());
@@ -61,6 +65,7 @@ class ExactHoldLoop {
     const Scalar nyquist = acos(Scalar{-1}) / T_;
     GainPeak<Scalar> best{limit(), infinity_of<Scalar>()};
     Scalar before{0}, omega = std::min<Scalar>(nyquist, sqrt(problem_.wall.stiffness / m_)) / Scalar(256);
+    omega = std::max<Scalar>(omega, std::numeric_limits<Scalar>::min());
     while (omega < Scalar(16) * nyquist) {
       const Scalar step = std::min<Scalar>(omega / Scalar(16), nyquist / Scalar(32)), after = omega + step;
       if (gain(omega) > best.value) best = polished(before, omega, after, best);
@@ -115,10 +120,13 @@ class ExactHoldLoop {
   [[nodiscard]] Scalar gain(const Scalar& omega) const {
     return size_of(numerator(omega)) / size_of(characteristic(problem_, C_, omega));
   }
-  [[nodiscard]] Scalar slope_bound(const Scalar& omega) const {
+  /// Of |q'| from one frequency to another.
+  [[nodiscard]] Scalar slope_bound(const Scalar& from, const Scalar& to) const {
     using std::abs;
-    const Scalar B = abs(C_.B_c), K = abs(C_.K_c);
-    return Scalar{2} * m_ * omega + b_ + B + (K + B * omega) * T_ / Scalar{2};
+    const Scalar B = abs(C_.B_c), K = abs(C_.K_c), half = from * T_ / Scalar{2};
+    const Scalar hold = half > Scalar{1} ? Scalar(Scalar{1} / half) : Scalar{1};
+    const Scalar turn = half > Scalar{2} ? Scalar(Scalar{2} / from) : Scalar(T_ / Scalar{2});
+    return Scalar{2} * m_ * to + b_ + B * hold + (K + B * to) * turn;
   }
 
   /// The logarithmic slope of |L|, Re(N'/N - q'/q).
@@ -175,7 +183,7 @@ class ExactHoldLoop {
         const Scalar N = size_of(numerator(centre)), q = size_of(characteristic(problem_, C_, centre));
         if (N >= level * q) return {false, centre};
         const Scalar most = N + radius * (Scalar{2} * alpha * m_ * edge + beta * b_);
-        if (most < level * (q - radius * slope_bound(edge)) * (Scalar{1} - rounding())) break;
+        if (most < level * (q - radius * slope_bound(omega, edge)) * (Scalar{1} - rounding())) break;
         if (!(width > rounding() * end / Scalar(1024))) return {};
       }
       omega = end - omega > width ? Scalar(omega + width) : end;

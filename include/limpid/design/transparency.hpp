@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace limpid {
@@ -27,13 +28,18 @@ struct TransparencyOptimum {
 
 namespace detail {
 
-/// Gains B_c to search, four an octave, from far below to far above those that the units make.
+/// Gains B_c to search, four an octave, from far below to far above those that the units make, m/T and sqrt(K_c m),
+/// where the scalar has such numbers; fewer where these are a hundred octaves apart.
 template <Real Scalar>
 [[nodiscard]] std::vector<Scalar> gains_to_search(const TransparencyProblem<Scalar>& problem, const Scalar& K_c) {
-  using std::exp, std::log, std::sqrt;
-  const Scalar by_mass = problem.plant.mass / problem.period, by_stiffness = sqrt(K_c * problem.plant.mass);
-  const Scalar from = log(std::min<Scalar>(by_mass, by_stiffness) / Scalar(256));
-  const Scalar to = log(std::max<Scalar>(by_mass, by_stiffness) * Scalar(256)), step = log(Scalar{2}) / Scalar{4};
+  using std::exp, std::log;
+  const Scalar by_mass = log(problem.plant.mass) - log(problem.period),
+               by_stiffness = (log(K_c) + log(problem.plant.mass)) / Scalar{2}, far = log(Scalar(256)),
+               least = log(std::numeric_limits<Scalar>::min()) + far,
+               most = log(std::numeric_limits<Scalar>::max()) - Scalar{2} * far;
+  const Scalar from = std::clamp<Scalar>(std::min<Scalar>(by_mass, by_stiffness), least, most) - far,
+               to = std::clamp<Scalar>(std::max<Scalar>(by_mass, by_stiffness), least, most) + far;
+  const Scalar step = std::max<Scalar>(log(Scalar{2}) / Scalar{4}, (to - from) / Scalar(400));
   std::vector<Scalar> gains;
   for (Scalar at = from; at <= to; at += step) gains.push_back(exp(at));
   return gains;
@@ -113,6 +119,7 @@ class FreeOptimum {
 
   [[nodiscard]] Here at(const Point& x) const {
     const WallFeedback<Scalar> C = gain(x);
+    if (!is_finite(C.K_c) || !is_finite(C.B_c)) return {false, infinity_of<Scalar>(), Point::Zero()};
     const auto index = index_slopes(problem_, C);
     return {index.verdict == NormVerdict::finite, index.J, Point(C.K_c * index.by_K_c, C.B_c * index.by_B_c)};
   }
@@ -197,7 +204,9 @@ template <Real Scalar>
   WallFeedback<Scalar> start = best.gain;
   Scalar lowest = detail::infinity_of<Scalar>();
   for (Scalar part = Scalar{1} / Scalar(16); part < Scalar(65); part *= Scalar{2}) {
-    const auto found = detail::best_damping(rational, Scalar(problem.wall.stiffness * part));
+    const Scalar K_c = problem.wall.stiffness * part;
+    if (!is_finite(K_c)) break;
+    const auto found = detail::best_damping(rational, K_c);
     if (!(found.index.J < lowest)) continue;
     lowest = found.index.J;
     start = found.gain;

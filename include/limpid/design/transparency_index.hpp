@@ -23,16 +23,29 @@ struct TransparencyIndex {
 
 /// Whether the nominal loop of Fig. 3, device, hold and feedback, is stable by more than rounding: by its poles with a
 /// rational hold, by the argument principle along a verified path with the exact one. Sampling is not in this model;
-/// see sampled_wall.hpp for the loop as it runs.
+/// see sampled_wall.hpp for the loop as it runs. No where the numbers leave the scalar's range.
 /// @throws std::invalid_argument  where an argument is refused
 template <Real Scalar>
 [[nodiscard]] bool is_nominally_stable(const TransparencyProblem<Scalar>& problem, const WallFeedback<Scalar>& C) {
   detail::check(problem, C);
   if (problem.hold == HoldModel::exact) return detail::ExactHoldLoop<Scalar>(problem, C).is_stable();
-  return is_stable(transmitted_admittance_system(problem, C));
+  const StateSpace<Scalar> Y = transmitted_admittance_system(problem, C);
+  return is_finite(Y.A) && is_finite(Y.B) && is_stable(Y);
 }
 
 namespace detail {
+
+/// Whether the admittances of wall and device have entries in the scalar's range.
+template <Real Scalar>
+[[nodiscard]] bool is_index_in_range(const TransparencyProblem<Scalar>& problem) {
+  const auto& [m, b] = problem.plant;
+  const auto& [K, B] = problem.wall;
+  const StateSpace<Scalar>& w1 = problem.weight;
+  const bool device = is_finite(Scalar(Scalar{1} / m)) && is_finite(Scalar(b / m)) && is_finite(Scalar(K / m));
+  if (B > Scalar{0}) return device && is_finite(Scalar(Scalar{1} / B)) && is_finite(Scalar(K / B / B));
+  return device && is_finite(DynamicMatrix<Scalar>(w1.C * w1.A / K)) &&
+         is_finite(DynamicMatrix<Scalar>(w1.C * w1.B / K));
+}
 
 // With A X + X A' + B B' = 0 and A' Y + Y A + C' C = 0: dJ = 2 trace Y dA X, and A holds each gain once.
 template <Real Scalar>
@@ -49,7 +62,7 @@ template <Real Scalar>
   const Matrix X = forward.solve(Matrix(B * B.transpose()));
   const Matrix Y = backward.solve(Matrix(output.transpose() * output));
   const Scalar J = Matrix(output * X).cwiseProduct(output).sum();
-  if (!is_finite(J)) return result;
+  if (!is_finite(J) || J < Scalar{0}) return result;  // below zero: nothing but rounding is left
   const Eigen::Index first = E.order() - loop.A.rows(), driven = first + loop.driven;
   const auto slope = [&](Eigen::Index by) -> Scalar {
     const Eigen::Index i = first + by;
@@ -62,6 +75,7 @@ template <Real Scalar>
 [[nodiscard]] IndexSlopes<Scalar> index_slopes(const TransparencyProblem<Scalar>& problem,
                                                const WallFeedback<Scalar>& C) {
   const Scalar infinity = infinity_of<Scalar>();
+  if (!is_index_in_range(problem)) return {infinity, Scalar{0}, Scalar{0}, infinity, NormVerdict::undecided};
   if (!is_nominally_stable(problem, C) || !is_stable(problem.weight)) {
     return {infinity, Scalar{0}, Scalar{0}, infinity, NormVerdict::unstable};
   }
