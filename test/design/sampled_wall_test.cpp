@@ -305,6 +305,22 @@ TEST_CASE("a sampled wall says which field it cannot use") {
                        std::invalid_argument);
 }
 
+TEST_CASE("a polynomial is not made of a loop that cannot be") {
+  const WallFeedback<> gains{K, 5};
+  CHECK_THROWS_WITH_AS((void)sampled_wall_polynomial(SampledWall<>{}, nominal, gains),
+                       doctest::Contains("SampledWall: period"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)sampled_wall_polynomial(loop_with(VelocitySource::sampled, 1), nominal, gains),
+                       doctest::Contains("below 32 periods"), std::invalid_argument);
+}
+
+TEST_CASE("as many cells as an int can count are no more than are needed") {
+  const auto loop = loop_with(VelocitySource::sampled);
+  const auto usual = robust_stable_gains(loop, uncertain, K, 1.0, 1.0 / 64),
+             most = robust_stable_gains(loop, uncertain, K, 1.0, 1.0 / 64, std::numeric_limits<int>::max());
+  CHECK(most.proved.lower == usual.proved.lower);
+  CHECK(most.proved.upper == usual.proved.upper);
+}
+
 TEST_CASE("numbers that are too large are neither proved nor refuted, and end") {
   const auto loop = loop_with(VelocitySource::sampled);
   CHECK(sampled_wall_radius(loop, HapticPlant<>{1e-300, 1}, WallFeedback<>{1e200, 1e200}) ==

@@ -151,24 +151,37 @@ template <typename Number>
   return p;
 }
 
+/// The same of a loop, a plant and gains that were checked.
+template <Real Scalar>
+[[nodiscard]] WallCoefficients<Scalar> wall_polynomial_of(const SampledWall<Scalar>& loop,
+                                                          const HapticPlant<Scalar>& plant,
+                                                          const WallFeedback<Scalar>& feedback) {
+  using std::atan, std::exp;
+  const Scalar zero{0}, one{1}, beta = plant.damping / plant.mass;
+  const auto flow = second_order_flow(zero, beta, loop.period);
+  const Scalar fraction = loop.fraction();
+  const auto rest = second_order_flow<Scalar>(zero, beta, loop.period - fraction);
+  const bool difference = loop.velocity == VelocitySource::backward_difference;
+  const Scalar angle = Scalar{8} * atan(one) * loop.cutoff * loop.period;
+  const auto filter = velocity_filter<Scalar>(loop.velocity, exp(-angle), angle, one);
+  return wall_polynomial<Scalar>(flow, fraction > zero ? &rest : nullptr, loop.periods(),
+                                 loop.filtered() || difference ? &filter : nullptr, difference, one / loop.period,
+                                 feedback.K_c / plant.mass, feedback.B_c / plant.mass, zero, one);
+}
+
 }  // namespace detail
 
-/// Coefficients p_0 ... p_N = 1 of the characteristic polynomial of the sampled loop.
+/// Coefficients p_0 ... p_N = 1 of the characteristic polynomial of the sampled loop; not finite where the numbers are
+/// too large.
+/// @throws std::invalid_argument  where a field cannot be used
 template <Real Scalar>
 [[nodiscard]] detail::WallCoefficients<Scalar> sampled_wall_polynomial(const SampledWall<Scalar>& loop,
                                                                        const HapticPlant<Scalar>& plant,
                                                                        const WallFeedback<Scalar>& feedback) {
-  using std::atan, std::exp;
-  const Scalar zero{0}, one{1}, beta = plant.damping / plant.mass;
-  const auto flow = detail::second_order_flow(zero, beta, loop.period);
-  const Scalar fraction = loop.fraction();
-  const auto rest = detail::second_order_flow<Scalar>(zero, beta, loop.period - fraction);
-  const bool difference = loop.velocity == VelocitySource::backward_difference;
-  const Scalar angle = Scalar{8} * atan(one) * loop.cutoff * loop.period;
-  const auto filter = detail::velocity_filter<Scalar>(loop.velocity, exp(-angle), angle, one);
-  return detail::wall_polynomial<Scalar>(
-      flow, fraction > zero ? &rest : nullptr, loop.periods(), loop.filtered() || difference ? &filter : nullptr,
-      difference, one / loop.period, feedback.K_c / plant.mass, feedback.B_c / plant.mass, zero, one);
+  loop.check();
+  plant.check();
+  feedback.check();
+  return detail::wall_polynomial_of(loop, plant, feedback);
 }
 
 /// Spectral radius of the sampled loop: the factor by which a motion grows from tick to tick in the long run; below 1
@@ -179,9 +192,6 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] Scalar sampled_wall_radius(const SampledWall<Scalar>& loop, const HapticPlant<Scalar>& plant,
                                          const WallFeedback<Scalar>& feedback) {
-  loop.check();
-  plant.check();
-  feedback.check();
   const auto p = sampled_wall_polynomial(loop, plant, feedback);
   return is_finite(p) ? detail::root_radius(p) : std::numeric_limits<Scalar>::infinity();
 }

@@ -3,11 +3,11 @@
 
 #include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
+#include <limpid/design/balance.hpp>
 #include <limpid/design/haptic_wall.hpp>
 #include <limpid/design/sampled_wall.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -115,15 +115,13 @@ class CircleCrossings {
     while (n > 0 && !(abs(r[n + 1]) > negligible)) --n;
     std::vector<Scalar> found;
     if (n <= 0) return found;
-    using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
     const Scalar half = Scalar{1} / Scalar{2};
-    Matrix colleague = Matrix::Zero(n, n);
+    DynamicMatrix<Scalar> colleague = DynamicMatrix<Scalar>::Zero(n, n);
     for (Eigen::Index k = 0; k + 1 < n; ++k) colleague(k, k + 1) = colleague(k + 1, k) = half;
     for (Eigen::Index k = 0; k < n; ++k) colleague(n - 1, k) -= half * r[k + 1] / r[n + 1];
-    const auto roots = Eigen::EigenSolver<Matrix>(colleague, false).eigenvalues().eval();
     const Scalar close = Scalar{1} / Scalar{1000};  // a double root may come out as a complex pair
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (abs(roots[i].imag()) < close && abs(roots[i].real()) < Scalar{1} + close) found.push_back(roots[i].real());
+    for (const auto& root : eigenvalues_of<Scalar>(colleague)) {
+      if (abs(root.imag()) < close && abs(root.real()) < Scalar{1} + close) found.push_back(root.real());
     }
     return found;
   }
@@ -146,7 +144,7 @@ template <Real Scalar>
   plant.check();
   expect(is_finite(K_c) && K_c > Scalar{0}, "stable_gains: K_c", "finite and > 0", K_c);
   expect(is_finite(radius) && radius > Scalar{0}, "stable_gains: radius", "finite and > 0", radius);
-  const auto at = [&](const Scalar& B_c) { return sampled_wall_polynomial(loop, plant, {K_c, B_c}); };
+  const auto at = [&](const Scalar& B_c) { return detail::wall_polynomial_of<Scalar>(loop, plant, {K_c, B_c}); };
   const auto p0 = at(Scalar{0});
   // p is affine in B_c; a unit that is about as large as the gains of interest keeps the difference exact enough
   const Scalar unit = plant.mass / loop.period;

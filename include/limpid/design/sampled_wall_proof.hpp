@@ -160,10 +160,10 @@ class GainSlices {
   /// How far it came: `to`, or where slices became narrower than `tolerance` of the way, or the cells were used up.
   [[nodiscard]] Scalar proved(const Scalar& from, const Scalar& to, const Scalar& tolerance) {
     using std::abs;
-    const int most = cells_ + most_cells_;
+    const int before = cells_;
     Scalar reached = from, step = to - from;
     const Scalar narrowest = abs(step) * tolerance;
-    while (reached != to && abs(step) > narrowest && cells_ < most) {
+    while (reached != to && abs(step) > narrowest && cells_ - before < most_cells_) {
       const bool last = !(abs(step) < abs(to - reached));
       const Scalar next = last ? to : reached + step;
       if (holds(std::min<Scalar>(reached, next), std::max<Scalar>(reached, next))) {
