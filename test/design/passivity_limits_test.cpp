@@ -119,4 +119,7 @@ TEST_CASE("what cannot be a wall, a device or a period is refused by name") {
   CHECK_THROWS_AS((void)colgate_schenkel_stiffness(infinity, 0.0, 1e-3), std::invalid_argument);
   CHECK_THROWS_AS((void)diolaiti_stiffness(FrictionalDevice<>{1, -1, 0}, 1e-3), std::invalid_argument);
   CHECK_THROWS_AS((void)sampled_wall_damping([](Complex) { return Complex(1); }, 1e-3, 1), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(
+      (void)sampled_wall_damping([](Complex) { return Complex(1); }, 1e-3, std::numeric_limits<int>::max()),
+      "sampled_wall_damping: steps: expected 2 to 1e8, got 2147483647", std::invalid_argument);
 }

@@ -119,6 +119,23 @@ TEST_CASE_TEMPLATE("every scalar finds the same design to its own digits", Scala
   CHECK(abs(2 * r * r * r - 9 * r * r - 15 * r - 4) < Fifty("1e-45"));
 }
 
+TEST_CASE("a coupling of any size asks for as much in its own units, and never for what is no number") {
+  for (const CouplingGains<> gains : {CouplingGains<>{100, 0.1}, CouplingGains<>{400, 0}, CouplingGains<>{0, 1}}) {
+    const auto usual = coupling_stability(gains, device);
+    for (const double unit : {1e-290, 1e-200, 1e200, 1e290}) {
+      CAPTURE(unit);
+      const auto found = coupling_stability({gains.stiffness * unit, gains.damping * unit}, device);
+      CHECK(found.needed_damping == doctest::Approx(usual.needed_damping * unit).epsilon(1e-14));
+      CHECK(found.omega == doctest::Approx(usual.omega).epsilon(1e-7));  // the root of a flat top
+    }
+  }
+  for (const double period : {std::numeric_limits<double>::denorm_min(), 1e300}) {
+    const auto found = coupling_stability<double>({1e200, 1}, {1, period});
+    CHECK_FALSE(std::isnan(found.needed_damping));
+    CHECK(found.stable == (period < 1));
+  }
+}
+
 TEST_CASE("a device without damping, without a period, and couplings below zero are refused") {
   CHECK_THROWS_WITH_AS((void)stiffest_coupling(CoupledDevice<>{0, 1e-3}),
                        "CoupledDevice: damping: expected finite and > 0, got 0", std::invalid_argument);

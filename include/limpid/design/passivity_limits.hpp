@@ -137,14 +137,14 @@ template <Real Scalar, typename Curve>
 /// Computed, not proved: a sweep whose hills are refined; one narrower than its steps is missed. Off line.
 /// @param H       gives a std::complex<Scalar>, N/m, for a std::complex<Scalar> z on the unit circle
 /// @param period  T, s
-/// @param steps   of the sweep, evenly up to pi/T; 100 more go down evenly in the logarithm
+/// @param steps   of the sweep, evenly up to pi/T, 2 to 1e8; 100 more go down evenly in the logarithm
 /// @throws std::invalid_argument  where an argument cannot be used
 template <Real Scalar, typename Transfer>
 [[nodiscard]] SampledWallDamping<Scalar> sampled_wall_damping(const Transfer& H, const Scalar& period,
                                                               int steps = 4'000) {
   using std::atan, std::pow;
   detail::check_passivity_period(period);
-  expect(steps >= 2, "sampled_wall_damping: steps", ">= 2", steps);
+  expect(steps >= 2 && steps <= 100'000'000, "sampled_wall_damping: steps", "2 to 1e8", steps);
   constexpr int lower = 100;
   const Scalar pi = Scalar{4} * atan(Scalar{1}), step = pi / Scalar(steps);
   const auto curve = [&](const Scalar& theta) { return detail::sampled_wall_damping_at(H, period, theta); };

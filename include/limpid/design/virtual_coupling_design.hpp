@@ -59,6 +59,20 @@ struct CouplingStability {
   Scalar omega{0};           ///< the frequency that asks for it, rad/s; 0 for the limit toward it
 };
 
+namespace detail {
+
+/// What the frequency with x = cos(omega T/2) and y = sin(omega T/2) asks of the device's damping.
+template <Real Scalar>
+[[nodiscard]] Scalar coupling_damping(const CouplingGains<Scalar>& gains, const Scalar& period, const Scalar& x,
+                                      const Scalar& y) {
+  const Scalar u = gains.stiffness * period / Scalar{2}, r = gains.damping + u;
+  if (!(r > Scalar{0}) || !is_finite(r)) return r;
+  const Scalar part = u / r;
+  return x * (y * y + part * part * x * x) / (Scalar{2} * (Scalar{1} + x)) * r;
+}
+
+}  // namespace detail
+
 /// Damping that the frequency omega asks of the device, N s/m: the coupling is unconditionally stable where b is at
 /// least that at all frequencies from 0 to pi/T. Off line.
 /// @param period  T, s
@@ -71,10 +85,8 @@ template <Real Scalar>
   CoupledDevice<Scalar>{Scalar{1}, period}.check();
   const Scalar Nyquist = acos(Scalar{-1}) / period * (Scalar{1} + Scalar{8} * std::numeric_limits<Scalar>::epsilon());
   expect(omega >= Scalar{0} && omega <= Nyquist, "coupling_damping_at: omega", "0 to pi/T", omega);
-  const Scalar u = gains.stiffness * period / Scalar{2}, r = gains.damping + u;
-  const Scalar x = cos(omega * period / Scalar{2}), y = sin(omega * period / Scalar{2});
-  if (!(r > Scalar{0})) return Scalar{0};
-  return x * (r * r * y * y + u * u * x * x) / (Scalar{2} * r * (Scalar{1} + x));
+  const Scalar half = omega * period / Scalar{2};
+  return detail::coupling_damping<Scalar>(gains, period, cos(half), sin(half));
 }
 
 /// Off line.
@@ -82,20 +94,19 @@ template <Real Scalar>
 template <Real Scalar>
 [[nodiscard]] CouplingStability<Scalar> coupling_stability(const CouplingGains<Scalar>& gains,
                                                            const CoupledDevice<Scalar>& device) {
-  using std::acos;
+  using std::acos, std::sqrt;
   gains.check();
   device.check();
   const Scalar u = gains.stiffness * device.period / Scalar{2}, r = gains.damping + u;
   // the needed damping is highest where 2 x^3 + 3 x^2 = r^2/(r^2 - u^2), a left side that rises from 0 to 5
-  const Scalar rest = gains.damping * (r + u), square = r * r;
-  Scalar omega{0};
-  if (Scalar{5} * rest > square) {
-    const auto slope = [&](const Scalar& x) -> Scalar { return (Scalar{2} * x + Scalar{3}) * x * x * rest - square; };
-    const Scalar x = detail::bracketed_root<Scalar>(slope, Scalar{0}, -square, Scalar{1}, Scalar{5} * rest - square);
-    omega = Scalar{2} * acos(std::min<Scalar>(x, Scalar{1})) / device.period;
+  const Scalar rest = gains.damping / r * (Scalar{1} + u / r), one{1};  // NaN without gains
+  Scalar x = one;
+  if (Scalar{5} * rest > one) {
+    const auto slope = [&](const Scalar& at) -> Scalar { return (Scalar{2} * at + Scalar{3}) * at * at * rest - one; };
+    x = std::min<Scalar>(detail::bracketed_root<Scalar>(slope, Scalar{0}, -one, one, Scalar{5} * rest - one), one);
   }
-  const Scalar needed = coupling_damping_at(gains, device.period, omega);
-  return {device.damping >= needed, needed, omega};
+  const Scalar needed = detail::coupling_damping<Scalar>(gains, device.period, x, sqrt((one - x) * (one + x)));
+  return {device.damping >= needed, needed, Scalar{2} * acos(x) / device.period};
 }
 
 /// The largest stiffness K_c that keeps a coupling of damping B_c unconditionally stable, N/m: 8 b/T for B_c = 0; NaN
