@@ -7,6 +7,7 @@
 #include <limpid/core/finite.hpp>
 #include <limpid/core/held_step.hpp>
 #include <limpid/core/real.hpp>
+#include <limpid/design/balance.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -91,11 +92,10 @@ template <QFilter Q, int Axes>
   expect(is_finite(cutoff) && cutoff > Scalar{0}, "observed_radius: cutoff", "finite and > 0", cutoff);
   const Matrix loop = observed_monodromy(plant, q, form, time_constant_of(cutoff));
   if (!is_finite(loop)) return std::numeric_limits<Scalar>::infinity();
-  const Eigen::EigenSolver<Matrix> solver(loop, false);
-  if (solver.info() != Eigen::Success) return std::numeric_limits<Scalar>::infinity();
+  const auto roots = detail::eigenvalues_of<Scalar>(loop);
+  if (roots.empty()) return std::numeric_limits<Scalar>::infinity();
   Scalar largest{0};
-  for (const auto& root : solver.eigenvalues()) {
-    using std::sqrt;
+  for (const auto& root : roots) {
     const Scalar square = root.real() * root.real() + root.imag() * root.imag();
     if (square > largest) largest = square;
   }
