@@ -6,6 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+#include <string>
+#include <system_error>
+
 namespace limpid::examples {
 
 namespace {
@@ -30,7 +34,15 @@ void add_decouple_options(CLI::App& app, DecoupleOptions& options) {
   app.add_option("--force", options.force, "amplitude of the operator's force along x, N")->check(within(1e-4, 5.0));
   app.add_option("--json", options.json, "write the figures here")
       ->check(CLI::Validator([](std::string& typed) { return refusal_of_output(typed); }, "", "output"));
-  app.add_option("--plot", options.plot, "draw decouple.svg into this directory");
+  app.add_option("--plot", options.plot, "draw decouple.svg into this directory")
+      ->check(CLI::Validator(
+          [](std::string& typed) -> std::string {
+            std::error_code error;
+            std::filesystem::create_directories(typed, error);
+            if (!error && std::filesystem::is_directory(typed, error)) return {};
+            return "accepts a folder that can be made, got " + typed;
+          },
+          "", "folder"));
 }
 
 }  // namespace limpid::examples

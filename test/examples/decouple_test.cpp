@@ -166,7 +166,7 @@ TEST_CASE("the figures are written as JSON") {
 TEST_CASE("options that cannot be are refused") {
   DecoupleOptions options;
   for (const std::string line : {"--filter none", "--cutoff 0", "--cutoff nan", "--frequency 0", "--force -1",
-                                 "--force 1e9", "--json /nowhere/at/all", "--nothing 1"}) {
+                                 "--force 1e9", "--json /nowhere/at/all", "--plot /dev/null", "--nothing 1"}) {
     CAPTURE(line);
     CHECK(parse(line, options) != 0);
   }
