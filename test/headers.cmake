@@ -1,11 +1,43 @@
 # SPDX-License-Identifier: MIT
-# Every public header compiles alone (CMake's header verification, as part of the build), and all of them together
-# in two translation units of one program link: nothing that needs `inline` lacks it.
+# Every public header compiles alone, with the warnings of everything else here, and all of them together in two
+# translation units of one program link: nothing that needs `inline` lacks it.
 
-if(CMAKE_VERIFY_INTERFACE_HEADER_SETS)
-  add_custom_target(limpid_headers_alone ALL)
-  add_dependencies(limpid_headers_alone limpid_verify_interface_header_sets)
-endif()
+# Sets `result` to whether a header brings <Eigen/Core>, itself or by another of limpid's.
+function(limpid_brings_eigen name result)
+  get_property(brings GLOBAL PROPERTY "limpid_brings_eigen:${name}")
+  if("${brings}" STREQUAL "")
+    set(brings OFF)
+    file(STRINGS "${PROJECT_SOURCE_DIR}/include/${name}" lines REGEX "^#include <(Eigen|limpid)/")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^#include <([^>]*)>.*" "\\1" included "${line}")
+      if(included MATCHES "^limpid/")
+        limpid_brings_eigen("${included}" brings)
+      else()
+        set(brings ON)
+      endif()
+      if(brings)
+        break()
+      endif()
+    endforeach()
+    set_property(GLOBAL PROPERTY "limpid_brings_eigen:${name}" ${brings})
+  endif()
+  set(${result} ${brings} PARENT_SCOPE)
+endfunction()
+
+# What brings <Eigen/Core> takes it precompiled, and nothing else with it; the other headers take nothing.
+add_library(limpid_headers_alone OBJECT)
+target_link_libraries(limpid_headers_alone PRIVATE limpid_developer)
+target_precompile_headers(limpid_headers_alone PRIVATE <Eigen/Core>)
+foreach(header IN LISTS limpid_headers)
+  cmake_path(RELATIVE_PATH header BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/include" OUTPUT_VARIABLE name)
+  set(alone "${CMAKE_CURRENT_BINARY_DIR}/headers_alone/${name}.cpp")
+  file(CONFIGURE OUTPUT "${alone}" CONTENT "#include <${name}>\n" @ONLY)
+  target_sources(limpid_headers_alone PRIVATE "${alone}")
+  limpid_brings_eigen("${name}" brings_eigen)
+  if(NOT brings_eigen)
+    set_source_files_properties("${alone}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endforeach()
 
 set(all_headers "// Generated: every public header.\n")
 foreach(header IN LISTS limpid_headers)
