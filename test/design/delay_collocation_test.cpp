@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "design/delay_cases.hpp"
+#include "sampled_instances.hpp"
 
 #include <limpid/design/delay_collocation.hpp>
 #include <limpid/design/delay_stability.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "design/palpation.hpp"
+#include "sampled_instances.hpp"
 
 #include <limpid/design/sampled_gain.hpp>
 #include <limpid/design/sampled_stability.hpp>
