@@ -6,10 +6,8 @@ target_link_libraries(limpid_developer INTERFACE limpid::limpid)
 target_compile_options(limpid_developer INTERFACE -Wall -Wextra -Wconversion -Wshadow
                                                   $<$<BOOL:${LIMPID_WARNINGS_AS_ERRORS}>:-Werror>)
 
-# The solvers of design/, compiled once for tests and examples.
-if(LIMPID_BUILD_TESTING OR LIMPID_BUILD_EXAMPLES)
-  file(GLOB instances CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/design_instances/*.cpp")
-  add_library(limpid_design_instances STATIC ${instances})
-  target_include_directories(limpid_design_instances PUBLIC "${PROJECT_SOURCE_DIR}/cmake/design_instances")
-  target_link_libraries(limpid_design_instances PUBLIC limpid_developer)
-endif()
+# The solvers of design/, compiled once for tests, examples and debug benchmarks.
+file(GLOB instances CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/design_instances/*.cpp")
+add_library(limpid_design_instances STATIC EXCLUDE_FROM_ALL ${instances})
+target_include_directories(limpid_design_instances PUBLIC "${PROJECT_SOURCE_DIR}/cmake/design_instances")
+target_link_libraries(limpid_design_instances PUBLIC limpid_developer)
