@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "eigen_instances.hpp"
+
 #include <limpid/robot/serial_chain.hpp>
 
 #include "chains.hpp"
