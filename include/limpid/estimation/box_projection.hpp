@@ -11,22 +11,44 @@
 namespace limpid {
 namespace detail {
 
-// By elimination, which needs no pivots for a symmetric positive definite A.
+// Some rows of U, orthogonal in the metric of D: rows = T V, T unit upper triangular, V D V' = diagonal S (Gram and
+// Schmidt, modified). So rows D rows' = T S T' stays definite where, multiplied out, it would not.
 template <int N, Real Scalar>
-[[nodiscard]] Eigen::Matrix<Scalar, N, 1> solve_definite(Eigen::Matrix<Scalar, N, N> A,
-                                                         Eigen::Matrix<Scalar, N, 1> b) noexcept {
-  for (int k = 0; k < N; ++k) {
-    for (int i = k + 1; i < N; ++i) {
-      const Scalar factor = A(i, k) / A(k, k);
-      for (int j = k; j < N; ++j) A(i, j) -= factor * A(k, j);
-      b[i] -= factor * b[k];
+struct OrthogonalRows {
+  Eigen::Matrix<Scalar, N, N> V, T;
+  Eigen::Matrix<Scalar, N, 1> S;
+
+  template <typename Taken>
+  OrthogonalRows(const Eigen::Matrix<Scalar, N, N>& U, const Eigen::Matrix<Scalar, N, 1>& D, Taken taken) noexcept
+      : V{U}, T{Eigen::Matrix<Scalar, N, N>::Identity()}, S{Eigen::Matrix<Scalar, N, 1>::Ones()} {
+    for (int i = N - 1; i >= 0; --i) {
+      if (!taken(i)) {
+        V.row(i).setZero();
+        continue;
+      }
+      const Eigen::Matrix<Scalar, N, 1> weighted = D.cwiseProduct(V.row(i).transpose());
+      S[i] = V.row(i).dot(weighted);
+      for (int j = 0; j < i; ++j) {
+        if (!taken(j)) continue;
+        T(j, i) = V.row(j).dot(weighted) / S[i];
+        V.row(j) -= T(j, i) * V.row(i);
+      }
     }
   }
+};
+
+// Gamma = U D U', U unit upper triangular.
+template <int N, Real Scalar>
+void factorise(Eigen::Matrix<Scalar, N, N> Gamma, Eigen::Matrix<Scalar, N, N>& U,
+               Eigen::Matrix<Scalar, N, 1>& D) noexcept {
+  U.setIdentity();
   for (int k = N - 1; k >= 0; --k) {
-    for (int j = k + 1; j < N; ++j) b[k] -= A(k, j) * b[j];
-    b[k] /= A(k, k);
+    D[k] = Gamma(k, k);
+    for (int i = 0; i < k; ++i) U(i, k) = Gamma(i, k) / D[k];
+    for (int i = 0; i < k; ++i) {
+      for (int j = 0; j < k; ++j) Gamma(i, j) -= U(i, k) * D[k] * U(j, k);
+    }
   }
-  return b;
 }
 
 }  // namespace detail
@@ -37,11 +59,12 @@ template <int N, Real Scalar>
 /// projection on the face in the metric of Gamma^-1. Where several faces are active (corners and edges, on which (4.47)
 /// is silent) the set of them is found by exchange of the first violated condition, so that theta_tilde' Gamma^-1
 /// theta_tilde never grows.
-/// @param Gamma  symmetric positive definite
-/// @return       inside the box, always
-/// @realtime     no allocation, no throw; at most 3^N exchanges (2 N in practice), one solution of order N each
+/// @param U, D  of Gamma = U D U': U unit upper triangular, D positive
+/// @return      inside the box, always
+/// @realtime    no allocation, no throw; at most 3^N exchanges (2 N in practice), one factorisation of order N each
 template <int N, Real Scalar>
-[[nodiscard]] Eigen::Matrix<Scalar, N, 1> project_on_box(const Eigen::Matrix<Scalar, N, N>& Gamma,
+[[nodiscard]] Eigen::Matrix<Scalar, N, 1> project_on_box(const Eigen::Matrix<Scalar, N, N>& U,
+                                                         const Eigen::Matrix<Scalar, N, 1>& D,
                                                          const Eigen::Matrix<Scalar, N, 1>& theta,
                                                          const Eigen::Matrix<Scalar, N, 1>& lower,
                                                          const Eigen::Matrix<Scalar, N, 1>& upper) noexcept {
@@ -53,19 +76,20 @@ template <int N, Real Scalar>
   // theta + Gamma mu with mu = 0 on the free entries; on the faces mu is what brings theta there.
   Column mu = Column::Zero(), nearest = theta;
   const auto solve = [&] {
-    Eigen::Matrix<Scalar, N, N> system = Gamma;
+    const detail::OrthogonalRows<N, Scalar> rows(U, D, [&](int i) { return face(i) != Face::none; });
     Column miss = Column::Zero();
     for (int i = 0; i < N; ++i) {
-      if (face(i) != Face::none) {
-        miss[i] = (face(i) == Face::at_lower ? lower[i] : upper[i]) - theta[i];
-        continue;
-      }
-      system.row(i).setZero();
-      system.col(i).setZero();
-      system(i, i) = Scalar{1};
+      if (face(i) != Face::none) miss[i] = (face(i) == Face::at_lower ? lower[i] : upper[i]) - theta[i];
     }
-    mu = detail::solve_definite<N, Scalar>(system, miss);
-    nearest = theta + Gamma * mu;
+    for (int i = N - 1; i >= 0; --i) {
+      for (int j = i + 1; j < N; ++j) miss[i] -= rows.T(i, j) * miss[j];
+    }
+    const Column z = miss.cwiseQuotient(rows.S);  // T' mu
+    mu = z;
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j < i; ++j) mu[i] -= rows.T(j, i) * mu[j];
+    }
+    nearest = theta + U * D.cwiseProduct(rows.V.transpose() * z);
     for (int i = 0; i < N; ++i) {
       if (face(i) != Face::none) nearest[i] = face(i) == Face::at_lower ? lower[i] : upper[i];
     }
@@ -90,6 +114,18 @@ template <int N, Real Scalar>
   for (int i = 0; i < N; ++i) most_exchanges *= 3;
   for (int i = 0; i < most_exchanges && exchange_first_violated(); ++i) solve();
   return nearest.cwiseMax(lower).cwiseMin(upper);
+}
+
+/// The same of Gamma itself, symmetric positive definite.
+template <int N, Real Scalar>
+[[nodiscard]] Eigen::Matrix<Scalar, N, 1> project_on_box(const Eigen::Matrix<Scalar, N, N>& Gamma,
+                                                         const Eigen::Matrix<Scalar, N, 1>& theta,
+                                                         const Eigen::Matrix<Scalar, N, 1>& lower,
+                                                         const Eigen::Matrix<Scalar, N, 1>& upper) noexcept {
+  Eigen::Matrix<Scalar, N, N> U;
+  Eigen::Matrix<Scalar, N, 1> D;
+  detail::factorise<N, Scalar>(Gamma, U, D);
+  return project_on_box<N, Scalar>(U, D, theta, lower, upper);
 }
 
 }  // namespace limpid
