@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limpid/core/finite.hpp>
+#include <limpid/core/inverse_factorial.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 
@@ -19,6 +20,9 @@ namespace limpid {
 ///
 /// r and s are summed as power series over a piece of h short enough for a fixed number of terms, then doubled
 /// until they span h. Nothing is divided by kappa or beta, so that zero and stiff values are alike well conditioned.
+/// With other parameters in every step to 1e-15 in 1.5 times the time of Tustin's rule, which errs by 4e-4; RK4 takes
+/// twice Tustin's and errs by 3e-6, a closed form with libm ten times as long as the series (bench/time_error, three
+/// axes).
 /// @tparam Axes  number of independent axes
 /// @realtime     no allocation, no throw; `set` some 120 flops an axis and 15 for each doubling, of which there are at
 ///               most as many as the scalar's exponent allows (some 1000 in double); `advance` 14
@@ -32,12 +36,11 @@ class SecondOrderStep {
   /// @param h      length of the step, s, not negative
   /// Where beta h or sqrt(kappa) h is not finite there is no step: `advance` then gives NaN.
   void set(const Vector& kappa, const Vector& beta, const Scalar& h) noexcept {
-    const Array k = to_lanes<Axes, Scalar>(kappa, Scalar{0}), b = to_lanes<Axes, Scalar>(beta, Scalar{0});
-    const Array sizes = (b.abs() * h).max(k.abs().sqrt() * h);
+    const Array k = to_lanes<Axes>(kappa), b = to_lanes<Axes>(beta);
     Scalar piece = h;
     int doublings = 0;
-    if (!(sizes.sum() <= Scalar(longest))) [[unlikely]]
-      doublings = halve(sizes, piece);
+    if (is_too_long(k, b, h)) [[unlikely]]
+      doublings = halve(k, b, piece);
     sum_series(k, b, piece);
     for (; doublings > 0; --doublings) double_length(k, b, piece);
     position_decay_ = Scalar{1} - k * s_;
@@ -50,8 +53,9 @@ class SecondOrderStep {
   /// @param f0, f1  force over mass at the start and at the end, m/s^2
   void advance(Vector& x, Vector& v, const Vector& f0, const Vector& f1) const noexcept {
     const Array x0 = lanes(x), v0 = lanes(v), f = lanes(f0), slope = (lanes(f1) - f) * rate_;
-    x = (position_decay_ * x0 + g_ * v0 + s_ * f + r_ * slope).template head<Axes>();
-    v = (velocity_from_position_ * x0 + velocity_decay_ * v0 + g_ * f + s_ * slope).template head<Axes>();
+    // f first: the chain from step to step is then two products long
+    x = (r_ * slope + s_ * f + position_decay_ * x0 + g_ * v0).template head<Axes>();
+    v = (s_ * slope + g_ * f + velocity_from_position_ * x0 + velocity_decay_ * v0).template head<Axes>();
   }
 
   [[nodiscard]] Vector impulse_response() const noexcept { return g_.template head<Axes>(); }  ///< g(h), s
@@ -61,7 +65,7 @@ class SecondOrderStep {
  private:
   using Array = Lanes<Axes, Scalar>;
 
-  static Array lanes(const Vector& values) noexcept { return to_lanes<Axes, Scalar>(values, Scalar{0}); }
+  static Array lanes(const Vector& values) noexcept { return to_lanes<Axes>(values); }
 
   static constexpr double longest = 0.5;  // of |beta| h and sqrt(|kappa|) h within one series
 
@@ -69,18 +73,26 @@ class SecondOrderStep {
   static constexpr int most_doublings =
       std::min(static_cast<int>(std::numeric_limits<Scalar>::max_exponent), 16'384) + 2;
 
-  // Coefficient n of r is at most (golden ratio * longest)^(n-3) / n!; the first one is 1/3!.
+  // u_n of `sum_series` is at most (golden ratio * longest)^n; the first term left out is below a rounding.
   static constexpr int terms() {
     double bound = 1, precision = 1;
     for (int bit = 0; bit < std::numeric_limits<Scalar>::digits + 2; ++bit) precision /= 2;
-    int n = 3;
-    for (; n * bound > precision; ++n) bound *= 1.6181 * longest / (n + 1);  // s sums n times the coefficient
+    int n = 0;
+    for (; (n + 3) * bound > precision; ++n) bound *= 1.6181 * longest / (n + 4);
     return n;
   }
 
+  // By 2 |kappa| h^2, which is `longest` where sqrt(|kappa|) h is; what is not finite is too long.
+  static bool is_too_long(const Array& kappa, const Array& beta, const Scalar& h) noexcept {
+    static_assert(longest == 0.5);
+    const Array sizes = (beta.abs() * h).max(kappa.abs() * (Scalar{2} * h * h));
+    return !(((sizes - Scalar(longest)).max(Scalar{0}) + (beta + kappa) * (h * Scalar{0})).sum() <= Scalar{0});
+  }
+
   // Shortens the piece until it is no longer than `longest`: how often. Apart, so that `set` stays small.
-  [[gnu::noinline]] static int halve(const Array& sizes, Scalar& piece) noexcept {
+  [[gnu::noinline]] static int halve(const Array& kappa, const Array& beta, Scalar& piece) noexcept {
     const Scalar none = std::numeric_limits<Scalar>::quiet_NaN();
+    const Array sizes = (beta.abs() * piece).max(kappa.abs().sqrt() * piece);
     Scalar size = is_finite(sizes) ? sizes.maxCoeff() : none;
     int count = 0;
     for (; size > longest && count < most_doublings; size /= 2, piece /= 2) ++count;
@@ -88,26 +100,24 @@ class SecondOrderStep {
     return count;
   }
 
+  // r/h^3 = sum u_n/(n + 3)! and s/h^2 = sum u_n/(n + 2)! with u_(n+1) = -B u_n - K u_(n-1), u_0 = 1, backwards
+  // (Clenshaw): b_n = 1/(n + 3)! - B b_(n+1) - K b_(n+2) ends in r/h^3 at n = 0, s/h^2 at -1 and g/h at -2.
   void sum_series(const Array& kappa, const Array& beta, const Scalar& h) noexcept {
     const Array B = beta * h, K = kappa * (h * h);
-    const Array older = Array::Zero(), newer = Array::Constant(Scalar{1} / Scalar{6});  // coefficients 2 and 3
-    Array r = newer, s = Scalar{3} * newer;
-    add_terms<3>(B, K, older, newer, r, s);
-    g_ = (Scalar{1} - B * s - K * r) * h;
+    Array r = Array::Zero(), s = Array::Constant(detail::inverse_factorial<Scalar, terms() + 2>());
+    add_terms<terms() - 2>(B, K, r, s);
+    g_ = (Scalar{1} - K * r - B * s) * h;
     s_ = s * (h * h);
     r_ = r * (h * h * h);
   }
 
-  // Unrolled, so that the quotients are constants of the program.
+  // Takes (b_(n+2), b_(n+1)) to (b_0, b_(-1)). Unrolled, so that the factorials are constants of the program.
   template <int n>
-  EIGEN_ALWAYS_INLINE static void add_terms(const Array& B, const Array& K, const Array& older, const Array& newer,
-                                            Array& r, Array& s) noexcept {
-    if constexpr (n < terms()) {
-      const Array next = B * (Scalar{-1} / Scalar(n + 1)) * newer + K * (Scalar{-1} / Scalar(n * (n + 1))) * older;
-      r += next;
-      s += Scalar(n + 1) * next;
-      add_terms<n + 1>(B, K, newer, next, r, s);
-    }
+  EIGEN_ALWAYS_INLINE static void add_terms(const Array& B, const Array& K, Array& before, Array& sum) noexcept {
+    const Array next = (detail::inverse_factorial<Scalar, n + 3>() - K * before) - B * sum;
+    before = sum;
+    sum = next;
+    if constexpr (n > -1) add_terms<n - 1>(B, K, before, sum);
   }
 
   // The second half starts from where the first one ended; its ramp starts at h.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/inverse_factorial.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/estimation/any_above.hpp>
 
@@ -23,34 +24,15 @@ template <Real Scalar>
   return n;
 }
 
-template <Real Scalar>
-[[nodiscard]] constexpr Scalar inverse_factorial(std::size_t n) {
-  Scalar product{1};
-  for (std::size_t k = 2; k <= n; ++k) product *= Scalar(static_cast<double>(k));
-  return Scalar{1} / product;
-}
-
-// One over (n + 1)!, a constant of the program for built-in scalars.
-template <Real Scalar, std::size_t n>
-[[nodiscard]] const Scalar& exponential_mean_coefficient() noexcept {
-  if constexpr (std::floating_point<Scalar>) {
-    static constexpr Scalar value = inverse_factorial<Scalar>(n + 1);
-    return value;
-  } else {
-    static const Scalar value = inverse_factorial<Scalar>(n + 1);
-    return value;
-  }
-}
-
 // Coefficients first, first + 1, ... of `count` terms, halved until two are left: short chains (Estrin).
 template <std::size_t first, std::size_t count, typename Array>
 [[nodiscard]] EIGEN_ALWAYS_INLINE Array exponential_mean_terms_from(const Array& x, const Array& x2, const Array& x4,
                                                                     const Array& x8) noexcept {
   using Scalar = typename Array::Scalar;
   if constexpr (count == 1) {
-    return Array::Constant(exponential_mean_coefficient<Scalar, first>());
+    return Array::Constant(inverse_factorial<Scalar, first + 1>());
   } else if constexpr (count == 2) {
-    return exponential_mean_coefficient<Scalar, first>() + x * exponential_mean_coefficient<Scalar, first + 1>();
+    return inverse_factorial<Scalar, first + 1>() + x * inverse_factorial<Scalar, first + 2>();
   } else {
     constexpr std::size_t half = count > 8 ? 8 : count > 4 ? 4 : 2;
     const Array& power = half == 8 ? x8 : half == 4 ? x4 : x2;
