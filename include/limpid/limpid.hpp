@@ -6,7 +6,10 @@
 #include <limpid/core/dormand_prince.hpp>
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/flat.hpp>
 #include <limpid/core/held_step.hpp>
+#include <limpid/core/inverse_factorial.hpp>
+#include <limpid/core/lane_math.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>

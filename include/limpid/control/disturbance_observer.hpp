@@ -72,6 +72,8 @@ class DisturbanceObserver {
     Q filter{};
     Vector mass = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());     ///< nominal m, kg, > 0
     Vector damping = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());  ///< nominal b, N s/m, >= 0
+    /// Tustin errs by 1.4e-4 for a Q of 50 Hz at 1 kHz, implicit Euler by 1.1e-2 and the step-invariant form by 0.1 to
+    /// 0.2, in the same time (bench/time_error).
     ObserverForm form = ObserverForm::tustin;
     Duration longest_step = std::chrono::milliseconds(100);  ///< after a longer pause it starts again
   };
@@ -132,7 +134,7 @@ class DisturbanceObserver {
 
   static constexpr std::make_integer_sequence<std::size_t, n> all_states{};
 
-  static Axis lanes(const Vector& values) noexcept { return to_lanes<Axes>(values, Scalar{0}); }
+  static Axis lanes(const Vector& values) noexcept { return to_lanes<Axes>(values); }
 
   // x_i of the tick, but for now_[i] F_device: what the device applied is known one tick later.
   [[nodiscard]] Axis state(std::size_t i, const Axis& hand, const Axis& velocity, const Axis& applied) const noexcept {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limpid/control/tracking_law.hpp>
+#include <limpid/core/flat.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
 
@@ -78,6 +79,21 @@ class SlotineLiAdaptive {
   [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
                               const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h,
                               const Joints& applied) noexcept {
+    return flat<Scalar>([&]() noexcept { return adapted(now, is, wanted, F_h, applied); });
+  }
+
+  /// The same for a device that always has the torque that it is asked for.
+  [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
+                              const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h) noexcept {
+    return update(now, is, wanted, F_h, Joints(tau_));
+  }
+
+  [[nodiscard]] const Parameters& theta_hat() const noexcept { return theta_hat_; }
+
+ private:
+  [[nodiscard]] Output adapted(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
+                               const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h,
+                               const Joints& applied) noexcept {
     if (started_ && now <= last_) return {tau_, Status::clock_backwards};
     obeyed_ = obeyed_ && (applied.array() == tau_.array()).all();
     const auto pose = RobotTraits<R>::at(robot_, is.q);
@@ -104,15 +120,6 @@ class SlotineLiAdaptive {
     return {tau_, when(!sound || (moved.array() != theta_hat.array()).any(), Status::at_bound)};
   }
 
-  /// The same for a device that always has the torque that it is asked for.
-  [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
-                              const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h) noexcept {
-    return update(now, is, wanted, F_h, Joints(tau_));
-  }
-
-  [[nodiscard]] const Parameters& theta_hat() const noexcept { return theta_hat_; }
-
- private:
   [[nodiscard]] bool adapts(Time now) const noexcept {
     return started_ && obeyed_ && elapsed(now, last_) <= longest_step_;
   }

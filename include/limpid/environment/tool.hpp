@@ -70,13 +70,13 @@ using ToolSample = Sample<ToolState<Axes, Scalar>>;
 template <int Axes, Real Scalar>
 [[nodiscard]] bool is_finite(const Motion<Axes, Scalar>& motion) noexcept {
   const Scalar none{0};
-  return ((motion.x * none + motion.v * none + motion.a * none) == none).all();
+  return (motion.x * none + motion.v * none + motion.a * none).sum() == none;
 }
 
 template <int Axes, Real Scalar>
 [[nodiscard]] bool is_finite(const ToolState<Axes, Scalar>& state) noexcept {
   const Scalar none{0};
-  return ((state.x * none + state.v * none + state.a * none + state.force * none) == none).all();
+  return (state.x * none + state.v * none + state.a * none + state.force * none).sum() == none;
 }
 
 }  // namespace limpid

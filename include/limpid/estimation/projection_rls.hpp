@@ -3,6 +3,7 @@
 
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/flat.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
@@ -26,7 +27,9 @@ namespace limpid {
 ///     Gamma'     = alpha Gamma - Gamma phi phi' Gamma / (1 + nu phi' Gamma phi)
 ///
 /// A step is the exact solution of the law for phi and F held over it (`LeastSquaresFlow`), whatever its length; Gamma
-/// is kept as U D U' and so definite by construction. Two points of the law are read as follows.
+/// is kept as U D U' and so definite by construction. To 2e-15 of the law in 109 ns for three axes; RK4 to 4e-7 in 127,
+/// one update a sample to 2e-2 in 38, a symmetric Gamma a tenth faster and no more exact (bench/time_error). Two points
+/// of the law are read as follows.
 ///
 /// Windup: (4.45) as printed stops altogether once lambda_max(Gamma) passes rho_M, and then never moves again. Here
 /// only the forgetting stops: a step that starts from Gamma uses, in place of alpha, the largest alpha' <= alpha for
@@ -63,29 +66,19 @@ class ProjectionRLS {
 
   /// @throws std::invalid_argument  where a setting is outside the range given at its field
   explicit ProjectionRLS(const Settings& settings)
-      : lower_{columns(settings.lower, Scalar{0})},
-        upper_{columns(settings.upper, Scalar{0})},
+      : lower_{columns(settings.lower)},
+        upper_{columns(settings.upper)},
         alpha_{settings.forgetting},
         nu_{settings.normalisation},
         rho_M_{settings.gain_limit},
-        state_{columns(checked(settings).initial, Scalar{0}), Factorised{columns(settings.initial_gain, Scalar{1})}} {}
+        state_{columns(checked(settings).initial), Factorised{columns(settings.initial_gain)}} {}
 
   /// The law over `dt` seconds with `phi` and `F` held.
   /// @param phi  regressor phi_e,zd; row: axis
   /// @param F    measured force less its known part, N
   /// @return     not_finite or clock_backwards: nothing changed; at_bound: the box held a parameter
   [[nodiscard]] Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
-    const Columns columns_of_phi = columns(phi, Scalar{0});
-    const Array lanes_of_F = to_lanes<Axes, Scalar>(F, Scalar{0});
-    if (!is_finite(dt) || !finite(columns_of_phi, lanes_of_F)) return Status::not_finite;
-    if (!(dt > Scalar{0})) return Status::clock_backwards;
-    State next;
-    next = state_;  // assigned, not constructed: by whole packets
-    flow(next, dt, columns_of_phi, lanes_of_F);
-    const Status bound = project(next);
-    if (!finite(next.theta, next.Gamma.sum())) return Status::not_finite;  // phi or F too large to be squared
-    state_ = next;
-    return bound;
+    return flat<Scalar>([&]() noexcept { return updated(dt, phi, F); });
   }
 
   /// theta_hat, always inside the box.
@@ -101,6 +94,7 @@ class ProjectionRLS {
 
  private:
   using Array = Lanes<Axes, Scalar>;
+  static constexpr int lanes = Array::SizeAtCompileTime;
   using Columns = std::array<Array, N>;
   using Factorised = UDFactors<N, Array>;
   using Flow = LeastSquaresFlow<Array>;
@@ -113,10 +107,24 @@ class ProjectionRLS {
 
   static const Array& column(const Columns& columns, int j) { return columns[static_cast<std::size_t>(j)]; }
 
-  static Columns columns(const Theta& values, const Scalar& idle) noexcept {
+  static Columns columns(const Theta& values) noexcept {
     Columns columns;
-    for (int j = 0; j < N; ++j) columns[static_cast<std::size_t>(j)] = to_lanes<Axes, Scalar>(values.col(j), idle);
+    for (int j = 0; j < N; ++j) columns[static_cast<std::size_t>(j)] = to_lanes<Axes>(values.col(j));
     return columns;
+  }
+
+  [[nodiscard]] Status updated(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
+    const Columns columns_of_phi = columns(phi);
+    const Array lanes_of_F = to_lanes<Axes>(F);
+    if (!is_finite(dt) || !finite(columns_of_phi, lanes_of_F)) return Status::not_finite;
+    if (!(dt > Scalar{0})) return Status::clock_backwards;
+    State next;
+    next = state_;  // assigned, not constructed: by whole packets
+    flow(next, dt, columns_of_phi, lanes_of_F);
+    const Status bound = project(next);
+    if (!finite(next.theta, next.Gamma.sum())) return Status::not_finite;  // phi or F too large to be squared
+    state_ = next;
+    return bound;
   }
 
   // Zero times a finite number is zero, times any other it is NaN.
@@ -156,7 +164,7 @@ class ProjectionRLS {
 
   // alpha dt, less where Gamma would grow past rho_M.
   typename Flow::Forgetting forgetting_over(const Scalar& dt) const noexcept {
-    const Array exponent = to_lanes<Axes, Scalar>(Vector::Constant(alpha_ * dt), Scalar{0});
+    const Array exponent = Array::Constant(alpha_ * dt);
     const typename Flow::Forgetting forgetting{exponent, exponential_mean(exponent)};
     const Array bound = forgetting.growth() * state_.Gamma.trace();  // >= T lambda_max
     if (any_above(bound, rho_M_)) [[unlikely]]
@@ -164,12 +172,12 @@ class ProjectionRLS {
     return forgetting;
   }
 
-  typename Flow::Forgetting less_forgetting(Array exponent, const Array& bound) const noexcept {
+  [[gnu::noinline]] typename Flow::Forgetting less_forgetting(Array exponent, const Array& bound) const noexcept {
     using std::log;
-    for (int axis = 0; axis < Axes; ++axis) {
-      if (!(bound[axis] > rho_M_)) continue;
-      const Scalar room = log(rho_M_ / state_.Gamma.largest_eigenvalue(axis));
-      exponent[axis] = std::clamp(room, Scalar{0}, exponent[axis]);
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!(bound[lane] > rho_M_)) continue;
+      const Scalar room = log(rho_M_ / state_.Gamma.largest_eigenvalue(lane));
+      exponent[lane] = std::clamp(room, Scalar{0}, exponent[lane]);
     }
     return {exponent, exponential_mean(exponent)};
   }
@@ -181,21 +189,21 @@ class ProjectionRLS {
     }
     if (!any_above(excess, Scalar{0})) [[likely]]
       return Status::ok;
-    for (int axis = 0; axis < Axes; ++axis) {
-      if (excess[axis] > Scalar{0}) project_axis(next, axis);
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (excess[lane] > Scalar{0}) project_lane(next, lane);
     }
     return Status::at_bound;
   }
 
-  void project_axis(State& next, int axis) const noexcept {
-    const auto nearest = project_on_box<N, Scalar>(next.Gamma.product(axis), row(next.theta, axis), row(lower_, axis),
-                                                   row(upper_, axis));
-    for (int j = 0; j < N; ++j) next.theta[static_cast<std::size_t>(j)][axis] = nearest[j];
+  [[gnu::noinline]] void project_lane(State& next, int lane) const noexcept {
+    const auto nearest = project_on_box<N, Scalar>(next.Gamma.U(lane), next.Gamma.D(lane), row(next.theta, lane),
+                                                   row(lower_, lane), row(upper_, lane));
+    for (int j = 0; j < N; ++j) next.theta[static_cast<std::size_t>(j)][lane] = nearest[j];
   }
 
-  static Eigen::Matrix<Scalar, N, 1> row(const Columns& columns, int axis) noexcept {
+  static Eigen::Matrix<Scalar, N, 1> row(const Columns& columns, int lane) noexcept {
     Eigen::Matrix<Scalar, N, 1> row;
-    for (int j = 0; j < N; ++j) row[j] = column(columns, j)[axis];
+    for (int j = 0; j < N; ++j) row[j] = column(columns, j)[lane];
     return row;
   }
 

@@ -3,6 +3,7 @@
 
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/flat.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
 #include <limpid/core/status.hpp>
@@ -140,6 +141,11 @@ class ModelPredictor {
   /// The tool at `now`.
   /// @param F_h  operator's force at `now`, N
   [[nodiscard]] Prediction<axes, Scalar> advance(Time now, const Vector& F_h) noexcept {
+    return flat<Scalar>([&]() noexcept { return advanced(now, F_h); });
+  }
+
+ private:
+  [[nodiscard]] Prediction<axes, Scalar> advanced(Time now, const Vector& F_h) noexcept {
     if (!is_finite(Vector((F_h / tool_.mass).square()))) return {motion_, Status::not_finite};
     if (started_ && now <= now_) return {motion_, Status::clock_backwards};
     const Scalar dt = started_ ? in_seconds<Scalar>(elapsed(now, now_)) : Scalar{0};
@@ -174,7 +180,6 @@ class ModelPredictor {
     return {motion_, status | when(!newest_.any(), Status::no_sample)};
   }
 
- private:
   static constexpr bool exact = LinearEnvironment<Env> && DecoupledEnvironment<Env>;
 
   // The coefficients of x'' + beta x' + kappa x = (F_h + L e) / m + constant.

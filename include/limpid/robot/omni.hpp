@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limpid/core/expect.hpp>
+#include <limpid/core/lane_math.hpp>
+#include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/robot/omni_pose.hpp>
 #include <limpid/robot/robot.hpp>
@@ -40,9 +42,8 @@ class Omni {
 
   /// The arm with its joints at q, rad.
   [[nodiscard]] OmniPose<Scalar> at(const Vector& q) const noexcept {
-    using std::cos, std::sin;
-    const Scalar q23 = q[1] + q[2];
-    return {links_, {cos(q[0]), sin(q[0]), cos(q[1]), sin(q[1]), cos(q23), sin(q23)}};
+    const auto [s, c] = sine_cosine(to_lanes<joints>(Vector(q[0], q[1], q[1] + q[2]).array()));
+    return {links_, {c[0], s[0], c[1], s[1], c[2], s[2]}};
   }
 
   [[nodiscard]] const Scalar& link2() const noexcept { return links_.l2; }   ///< l2, m

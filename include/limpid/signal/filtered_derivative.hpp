@@ -19,6 +19,8 @@ namespace limpid {
 ///
 ///     y(t + h) = y + (1 - exp(-h/tau)) ((u(t + h) - u)/h - y)
 ///
+/// To 3e-16 of the law in 10 ns for three axes at 1 kHz; Tustin's to 2e-5 and Euler's to 4e-3 in 7 (bench/time_error).
+///
 /// @tparam Axes  number of independent axes
 /// @realtime     no allocation, no throw; 4 flops an axis, an exponential where h is not the last tick's
 template <int Axes = 1, Real Scalar = double>

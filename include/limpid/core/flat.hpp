@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/real.hpp>
+
+#include <concepts>
+#include <utility>
+
+namespace limpid {
+
+namespace detail {
+
+template <typename F>
+[[gnu::flatten, gnu::noinline]] decltype(auto) flattened(F&& f) noexcept(noexcept(f())) {
+  return std::forward<F>(f)();
+}
+
+}  // namespace detail
+
+/// Calls `f` with all that it calls inlined, but for functions marked noinline: compilers stop at a budget that depends
+/// on the whole translation unit, and what they leave as calls among an expression's packets costs more than its sums.
+/// A scalar that is a class, of many digits, has too much to inline and is called as it is.
+/// @tparam Scalar  of what `f` computes
+/// @realtime       one call
+template <Real Scalar, typename F>
+[[gnu::always_inline]] inline decltype(auto) flat(F&& f) noexcept(noexcept(f())) {
+  if constexpr (std::floating_point<Scalar>) {
+    return detail::flattened(std::forward<F>(f));
+  } else {
+    return std::forward<F>(f)();
+  }
+}
+
+}  // namespace limpid
