@@ -35,7 +35,7 @@ template <typename Matrix>
   Matrix term = I, sum = I;
   Scalar bound{1};
   for (int n = 2; bound > std::numeric_limits<Scalar>::epsilon() / Scalar{8}; ++n) {
-    term = (term.lazyProduct(Ah) / Scalar(n)).eval();
+    term = Matrix(term.lazyProduct(Ah)) / Scalar(n);  // a product of 1 x 1 would turn into a number
     sum += term;
     bound /= Scalar(2 * n);
   }
