@@ -1,8 +1,19 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Installs what is missing (Debian, Ubuntu), builds limpid with its examples and benchmarks, and runs all tests.
+# --long: then a minute of each fuzz target (clang), and the stress programs for 1e8 ticks.
 set -eu
 cd "$(dirname "$0")/.."
+
+long=
+case "$*" in
+  '') ;;
+  --long) long=yes ;;
+  *)
+    echo "test/run.sh [--long], got: $*" >&2
+    exit 2
+    ;;
+esac
 
 .ci/install g++=c++ cmake=cmake ninja-build=ninja gnuplot-nox=gnuplot \
   libeigen3-dev=/usr/include/eigen3/Eigen/Core libboost-dev=/usr/include/boost/hana.hpp \
@@ -13,4 +24,15 @@ cd "$(dirname "$0")/.."
 export CMAKE_GENERATOR=Ninja
 CTEST_PARALLEL_LEVEL=$(nproc)
 export CTEST_PARALLEL_LEVEL
-exec cmake --workflow --preset dev
+[ -n "$long" ] || exec cmake --workflow --preset dev
+
+cmake --workflow --preset dev
+.ci/install clang=clang++
+.ci/install "libclang-rt-dev=$(clang++ -print-runtime-dir)/libclang_rt.fuzzer-$(uname -m).a"
+cmake --preset dev -B build/fuzz -DCMAKE_CXX_COMPILER=clang++ -DLIMPID_BUILD_FUZZ=ON \
+  -DLIMPID_BUILD_EXAMPLES=OFF -DLIMPID_BUILD_BENCH=OFF
+cmake --build build/fuzz --target limpid_fuzz
+ctest --test-dir build/fuzz --label-regex '^fuzz$' --output-on-failure --no-tests=error
+cmake --preset release
+cmake --build build/release --target stress
+build/release/bench/stress

@@ -268,6 +268,18 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
 
 }  // namespace
 
+const char* name(PredictorKind kind) {
+  switch (kind) {
+    case PredictorKind::hold:
+      return "hold";
+    case PredictorKind::model:
+      return "model";
+    case PredictorKind::ideal:
+      return "ideal";
+  }
+  return "unknown";
+}
+
 PalpateOptions parse_palpate_options(int argc, const char* const* argv) {
   CLI::App app{"A hand presses a simulated Phantom Omni against a slow tissue, with and without prediction.",
                "palpate"};

@@ -110,18 +110,6 @@ SafetyLimiter<Omni<>> make_limiter(const Scene& scene) {
   return SafetyLimiter<Omni<>>(settings);
 }
 
-const char* name(PredictorKind kind) {
-  switch (kind) {
-    case PredictorKind::hold:
-      return "hold";
-    case PredictorKind::model:
-      return "model";
-    case PredictorKind::ideal:
-      return "ideal";
-  }
-  return "unknown";
-}
-
 PalpationResult palpate(const Scene& scene, PredictorKind predictor, const ProgressCallback& progress) {
   if (scene.hand && scene.playback) {
     throw std::invalid_argument("Scene: hand: expected none with playback, in which nothing holds the arm");
