@@ -150,10 +150,10 @@ template <typename Wanted, typename Scalar, typename... Rest>
 
 /// The tick composed from blocks, up to the controller's torque.
 template <typename Scalar>
-[[nodiscard]] auto composed_tick() {
+[[nodiscard]] auto composed_tick(const StraightforwardTick::Settings& settings = TickParts<Scalar>::settings()) {
   using P = TickParts<Scalar>;
   using Arm = typename P::Arm;
-  const P parts;
+  const P parts(settings);
   return tick_of<palpation::WantedTorque<Arm>>(parts, UnlimitedTracking<typename P::Controller, Arm>{parts.controller});
 }
 
@@ -186,7 +186,8 @@ struct HandWrittenTick : TickParts<Scalar> {
     Status status;
   };
 
-  HandWrittenTick() : TickParts<Scalar>(TickParts<Scalar>::settings()) {}
+  explicit HandWrittenTick(const StraightforwardTick::Settings& settings = TickParts<Scalar>::settings())
+      : TickParts<Scalar>(settings) {}
 
   [[gnu::always_inline]] Wanted wanted(Time now, const Vector& F_h, const ToolState<3, Scalar>& tool,
                                        const DeviceState<3, Scalar>& device) noexcept {
