@@ -28,6 +28,7 @@ CLI::Validator within(double least, double most) {
 }  // namespace
 
 void add_decouple_options(CLI::App& app, DecoupleOptions& options) {
+  app.option_defaults()->always_capture_default();
   app.add_option("--frequency", options.frequency, "of the operator's force, Hz")->check(within(0.5, 100.0));
   app.add_option("--filter", options.filter, "Q of the runs")->check(CLI::IsMember({"first", "butterworth", "q31"}));
   app.add_option("--cutoff", options.cutoff, "of Q in the runs, Hz")->check(within(0.5, 1000.0));

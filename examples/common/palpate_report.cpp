@@ -130,6 +130,17 @@ Json ticks(const LatencyHistogram& tick) {
           {"max", tick.max().count()}};
 }
 
+// Work = kinetic + elastic + dissipated + delivered: what the hand did, and where that went.
+void print_energies(std::ostream& out, const std::vector<PalpationRun>& runs) {
+  out << text("%-18s %10s %10s %10s %10s %10s\n", "hand's energy, J", "work", "kinetic", "elastic", "dissipated",
+              "delivered");
+  for (const PalpationRun& run : runs) {
+    const HandEnergy<>& of = run.result.energy;
+    out << text("  %-16s %10.3g %10.3g %10.3g %10.3g %10.3g\n", name(run.predictor), of.work, of.kinetic, of.elastic,
+                of.dissipated, of.delivered);
+  }
+}
+
 Json energies(const HandEnergy<>& energy) {
   return {{"work", energy.work},
           {"kinetic", energy.kinetic},
@@ -241,6 +252,7 @@ void print_table(std::ostream& out, const Scene& scene, const std::vector<Palpat
   }
   print_errors(out, "prediction error", runs, &PalpationResult::prediction);
   print_errors(out, "total error", runs, &PalpationResult::total);
+  if (scene.hand) print_energies(out, runs);
   print_ticks(out, runs);
   print_verdict(out, runs);
   for (const PalpationRun& run : runs) {

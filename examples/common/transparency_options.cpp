@@ -24,7 +24,8 @@ struct Typed {
 
 const std::map<std::string, HoldModel> holds{
     {"A", HoldModel::second_order}, {"B", HoldModel::first_order}, {"C", HoldModel::exact}};
-const std::map<std::string, VelocitySource> velocities{{"sampled", VelocitySource::sampled},
+const std::map<std::string, VelocitySource> velocities{{"measured", VelocitySource::sampled},
+                                                       {"sampled", VelocitySource::sampled},
                                                        {"difference", VelocitySource::backward_difference}};
 
 void add_options(CLI::App& app, Typed& typed) {
@@ -43,9 +44,9 @@ void add_options(CLI::App& app, Typed& typed) {
   add("--gains", typed.gains, "B_c of the table, and of --step, N s/m");
   app.add_flag("--free", typed.free, "seek the stiffness gain K_c too; else it is the wall's stiffness");
   app.add_option("--velocity", typed.velocity,
-                 "of the sampled loop: measured, or the backward difference of the position; default: both are "
+                 "of the sampled loop: measured (also: sampled), or the backward difference of the position; default: both are "
                  "judged, the step has the difference")
-      ->check(CLI::IsMember({"sampled", "difference"}));
+      ->check(CLI::IsMember({"measured", "sampled", "difference"}));
   add("--delay", typed.delay, "of the sampled loop, from measuring to acting, s");
   app.add_option("--cutoff", typed.cutoff, "of a first-order low-pass of the velocity, Hz; default: none");
   add("--radius", typed.radius, "bound of the sampled loop's spectral radius; below 1: with a margin");

@@ -87,10 +87,10 @@ std::string words_of_loop(const TransparencyTask& task, const SampledFindings& s
   std::string said = std::string("\nsampled loop, velocity ") + (measured ? "measured" : "by backward difference");
   if (task.delay > 0) said += words(", %.6g s late", task.delay);
   if (std::isfinite(task.cutoff)) said += words(", low-pass %.6g Hz", task.cutoff);
-  if (task.radius < 1) said += words(", radius below %.6g", task.radius);
-  said += ":\nstable for the nominal device: ";
+  const std::string held = task.radius < 1 ? words("radius below %.6g", task.radius) : "stable";
+  said += ":\n" + held + " for the nominal device: ";
   said += sampled.nominal.empty() ? "for no gain" : describe(sampled.nominal);
-  said += "\nproved stable for every mass and damping of the box: ";
+  said += "\nproved " + held + " for every mass and damping of the box: ";
   said += (sampled.robust.empty() ? "for no gain" : describe(sampled.robust)) + "\n";
   if (sampled.robust.empty() && !sampled.found.empty()) {
     said += "  (not refuted on a grid of plants, nor proved: " + describe(sampled.found) + ")\n";
