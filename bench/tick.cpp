@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The whole tick of three axes in all its forms: `tick ratio`, `tick latency [TICKS]`, `tick once FORM TICKS`.
+// The whole tick of three axes in all its forms: `tick ratio`, `tick instructions`,
+// `tick latency [TICKS]`, `tick once FORM TICKS`.
+#include "count_instructions.hpp"
 #include "tick/form.hpp"
 
 #include <algorithm>
@@ -55,16 +57,34 @@ int print_latencies(long ticks) {
   return 0;
 }
 
-/// For callgrind; see bench/instructions.sh.
+/// Of one tick: the difference of two runs of different length, less that of the empty form.
+int print_instructions() {
+  constexpr long few = 8, more = 24, settling = 2000;
+  std::printf("%-24s instructions a tick\n", "");
+  long empty = 0;
+  for (Form& form : all_forms()) {
+    form.run(settling);
+    const long base = count_instructions([&] { form.run(few); });
+    const long longer = count_instructions([&] { form.run(more); });
+    if (base < 0 || longer < 0) {
+      std::fprintf(stderr, "tick instructions: this system does not let a process be traced\n");
+      return 1;
+    }
+    const long tick = (longer - base) / (more - few);
+    if (form.name() == "empty") empty = tick;
+    std::printf("%-24s %ld\n", form.name().data(), tick - empty);
+  }
+  return 0;
+}
+
+/// For a profiler.
 int run_once(std::string_view name, long ticks) {
   for (Form& form : all_forms()) {
     if (form.name() != name) continue;
     form.run(ticks);
     return 0;
   }
-  std::fprintf(stderr,
-               "tick once: expected empty|straightforward|composed|hand_written|composed_with_safety|"
-               "composed_float and a number of ticks\n");
+  std::fprintf(stderr, "tick once: expected the name of a form, as `tick ratio` prints it, and a number of ticks\n");
   return 1;
 }
 
@@ -73,9 +93,10 @@ int run_once(std::string_view name, long ticks) {
 int main(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == "ratio" && argc == 2) return print_ratios();
+  if (command == "instructions" && argc == 2) return print_instructions();
   const long ticks = argc > 2 ? std::atol(argv[argc - 1]) : 10'000'000;
   if (command == "latency" && argc <= 3 && ticks > 0) return print_latencies(ticks);
   if (command == "once" && argc == 4 && ticks > 0) return run_once(argv[2], ticks);
-  std::fprintf(stderr, "tick: expected ratio, latency [TICKS] or once FORM TICKS\n");
+  std::fprintf(stderr, "tick: expected ratio, instructions, latency [TICKS] or once FORM TICKS\n");
   return 1;
 }

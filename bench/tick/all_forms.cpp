@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tick/form.hpp"
+#include "tick/simd_tick.hpp"
 
 #include <algorithm>
 
@@ -8,6 +9,7 @@ namespace limpid::bench {
 std::vector<Form> all_forms() {
   return {Form::of<double>("empty", [](Time now, const auto& in) { return in.F_h[0] + in_seconds(now); }),
           straightforward_form(),
+          simd_form(),
           composed_form(),
           hand_written_form(),
           composed_safe_form(),
@@ -18,6 +20,7 @@ std::vector<Form> all_forms() {
 double difference_from_straightforward() {
   StraightforwardTick reference(TickParts<double>::settings());
   auto loop = composed_tick<double>();
+  SimdTick by_hand(TickParts<double>::settings());
   const auto inputs = tick_inputs<double>();
   double difference = 0, largest = 0;
   for (std::size_t i = 0; i < 10'000; ++i) {
@@ -25,7 +28,9 @@ double difference_from_straightforward() {
     const Time now = static_cast<Time::rep>(i) * std::chrono::milliseconds{1};
     const auto [ours, status] = loop.step(now, in.F_h, in.F_h, in.tool, in.device);
     const Eigen::Vector3d theirs = reference.step(now, in.F_h, in.tool, in.device.q, in.device.qdot);
+    const Eigen::Vector3d hands = by_hand.step(now, in.F_h, in.tool, in.device.q, in.device.qdot);
     difference = std::max(difference, (ours - theirs).lpNorm<Eigen::Infinity>());
+    difference = std::max(difference, (hands - theirs).lpNorm<Eigen::Infinity>());
     largest = std::max(largest, theirs.lpNorm<Eigen::Infinity>());
   }
   return difference / largest;

@@ -61,6 +61,19 @@ class StraightforwardTick {
     return tau;
   }
 
+  // The root u of tau = E + (u - p' / s) / (1 - p), by Newton's iteration.
+  static double information(double tau, double p, double nu, double s) {
+    if (s < 1e-300) return tau;
+    double l = s * tau / (1 + nu * s);
+    for (int i = 0; i < 3; ++i) {
+      const double whole = std::expm1(l), part = p > 0 ? std::expm1(p * l) : 0;
+      const double f = (whole - part) / (1 - p) + nu * s * (p > 0 ? part / p : l) - s * tau;
+      const double slope = (whole + 1 - p * (part + 1)) / (1 - p) + nu * s * (part + 1);
+      l -= f / slope;
+    }
+    return std::expm1(l) / s;
+  }
+
  private:
   static constexpr std::size_t history = 512;  // the delay is at least a tick
   static constexpr double l2 = 0.135, l3 = 0.130, g = 9.81;
@@ -109,23 +122,10 @@ class StraightforwardTick {
     }
     const Eigen::Vector2d gain = axis.Gamma * axis.phi;
     const double s = axis.phi.dot(gain), epsilon = axis.phi.dot(axis.theta) - axis.F;
-    const double u = information(alpha > 0 ? (T - 1) / alpha : h, alpha * s_.nu, s);
+    const double u = information(alpha > 0 ? (T - 1) / alpha : h, alpha * s_.nu, s_.nu, s);
     axis.theta -= gain * (epsilon * u / (1 + s * u));
     axis.Gamma = T * (axis.Gamma - gain * gain.transpose() * (u / (1 + s * u)));
     project(axis);
-  }
-
-  // The root u of tau = E + (u - p' / s) / (1 - p), by Newton's iteration.
-  double information(double tau, double p, double s) const {
-    if (s < 1e-300) return tau;
-    double l = s * tau / (1 + s_.nu * s);
-    for (int i = 0; i < 3; ++i) {
-      const double whole = std::expm1(l), part = p > 0 ? std::expm1(p * l) : 0;
-      const double f = (whole - part) / (1 - p) + s_.nu * s * (p > 0 ? part / p : l) - s * tau;
-      const double slope = (whole + 1 - p * (part + 1)) / (1 - p) + s_.nu * s * (part + 1);
-      l -= f / slope;
-    }
-    return std::expm1(l) / s;
   }
 
   void project(Axis& axis) const {

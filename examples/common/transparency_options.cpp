@@ -43,9 +43,10 @@ void add_options(CLI::App& app, Typed& typed) {
       ->check(CLI::IsMember({"A", "B", "C"}));
   add("--gains", typed.gains, "B_c of the table, and of --step, N s/m");
   app.add_flag("--free", typed.free, "seek the stiffness gain K_c too; else it is the wall's stiffness");
-  app.add_option("--velocity", typed.velocity,
-                 "of the sampled loop: measured (also: sampled), or the backward difference of the position; default: both are "
-                 "judged, the step has the difference")
+  app.add_option(
+         "--velocity", typed.velocity,
+         "of the sampled loop: measured (also: sampled), or the backward difference of the position; default: both are "
+         "judged, the step has the difference")
       ->check(CLI::IsMember({"measured", "sampled", "difference"}));
   add("--delay", typed.delay, "of the sampled loop, from measuring to acting, s");
   app.add_option("--cutoff", typed.cutoff, "of a first-order low-pass of the velocity, Hz; default: none");
