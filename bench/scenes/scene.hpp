@@ -56,11 +56,13 @@ class Scene {
   template <int Axes>
   static std::vector<Input<Axes>> inputs_of(bool touching) {
     std::vector<Input<Axes>> inputs;
-    for (const auto& [F_h, tool, device] : tick_inputs<double>()) {
+    for (const TickInput<double>& of : tick_inputs<double>()) {
       Input<Axes> in{
-          F_h, {tool.x.head<Axes>(), tool.v.head<Axes>(), tool.a.head<Axes>(), tool.force.head<Axes>()}, device};
+          of.F_h,
+          {of.tool.x.head<Axes>(), of.tool.v.head<Axes>(), of.tool.a.head<Axes>(), of.tool.force.head<Axes>()},
+          of.device};
       if (!touching) {
-        in.F_h -= tool.force.matrix();
+        in.F_h -= of.tool.force.matrix();
         in.tool.x -= 0.01;
         in.tool.force.setZero();
       }
