@@ -16,7 +16,7 @@ using namespace limpid::bench;
 
 constexpr Duration most = std::chrono::microseconds{1};
 
-struct Verdict {
+struct TickVerdict {
   Duration p50 = Duration::max(), p999 = Duration::max();
   std::size_t allocations = 0;
 
@@ -24,9 +24,9 @@ struct Verdict {
 };
 
 // The best of some rounds: another process that takes the processor away says nothing of the code.
-Verdict judge(Scene& scene, long ticks) {
+TickVerdict judge(Scene& scene, long ticks) {
   constexpr int rounds = 5;
-  Verdict verdict;
+  TickVerdict verdict;
   scene.run(1000);
   for (int round = 0; round < rounds; ++round) {
     LatencyHistogram histogram;
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   std::printf("%ld ticks, the best of five rounds; the clock's own cost included\n%-48s %8s %8s %12s\n", ticks, "",
               "p50, ns", "p99.9", "allocations");
   for (Scene& scene : all_scenes()) {
-    const Verdict verdict = judge(scene, ticks);
+    const TickVerdict verdict = judge(scene, ticks);
     all = all && verdict.holds();
     std::printf("%-48s %8ld %8ld %12zu%s\n", scene.name().c_str(), static_cast<long>(verdict.p50.count()),
                 static_cast<long>(verdict.p999.count()), verdict.allocations,
