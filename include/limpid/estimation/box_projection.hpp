@@ -35,6 +35,21 @@ struct OrthogonalRows {
       }
     }
   }
+
+  // T' mu of T S T' mu = b
+  [[nodiscard]] Eigen::Matrix<Scalar, N, 1> transposed_multipliers(Eigen::Matrix<Scalar, N, 1> b) const noexcept {
+    for (int i = N - 1; i >= 0; --i) {
+      for (int j = i + 1; j < N; ++j) b[i] -= T(i, j) * b[j];
+    }
+    return b.cwiseQuotient(S);
+  }
+  // mu of z = T' mu
+  [[nodiscard]] Eigen::Matrix<Scalar, N, 1> multipliers(Eigen::Matrix<Scalar, N, 1> z) const noexcept {
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j < i; ++j) z[i] -= T(j, i) * z[j];
+    }
+    return z;
+  }
 };
 
 // Gamma = U D U', U unit upper triangular.
@@ -81,14 +96,8 @@ template <int N, Real Scalar>
     for (int i = 0; i < N; ++i) {
       if (face(i) != Face::none) miss[i] = (face(i) == Face::at_lower ? lower[i] : upper[i]) - theta[i];
     }
-    for (int i = N - 1; i >= 0; --i) {
-      for (int j = i + 1; j < N; ++j) miss[i] -= rows.T(i, j) * miss[j];
-    }
-    const Column z = miss.cwiseQuotient(rows.S);  // T' mu
-    mu = z;
-    for (int i = 0; i < N; ++i) {
-      for (int j = 0; j < i; ++j) mu[i] -= rows.T(j, i) * mu[j];
-    }
+    const Column z = rows.transposed_multipliers(miss);
+    mu = rows.multipliers(z);
     nearest = theta + U * D.cwiseProduct(rows.V.transpose() * z);
     for (int i = 0; i < N; ++i) {
       if (face(i) != Face::none) nearest[i] = face(i) == Face::at_lower ? lower[i] : upper[i];
