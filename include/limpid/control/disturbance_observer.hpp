@@ -136,7 +136,7 @@ class DisturbanceObserver {
 
   static Axis lanes(const Vector& values) noexcept { return to_lanes<Axes>(values); }
 
-  // x_i of the tick, but for now_[i] F_device: what the device applied is known one tick later.
+  // x_i of the tick less its term now_[i] F_device: what the device applied is known one tick later.
   [[nodiscard]] Axis state(std::size_t i, const Axis& hand, const Axis& velocity, const Axis& applied) const noexcept {
     return (now_[i] * hand + applied_[i] * applied + velocity_now_[i] * velocity) + ahead_[i];
   }
