@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
-#include <support/run_program.hpp>
+#include <support/ask_program.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -11,32 +11,15 @@
 
 namespace {
 
+using limpid::test::Answer;
 using limpid::test::ProgramRun;
 using limpid::test::run_program;
 using Json = nlohmann::json;
 
-struct Answer {
-  ProgramRun run;
-  Json json;
-};
-
-Answer ask(const std::string& arguments) {
-  CAPTURE(arguments);
-  const auto path = std::filesystem::temp_directory_path() / "limpid_design_gain.json";
-  Answer answer{run_program("design_gain", arguments + " --json " + path.string()), {}};
-  CAPTURE(answer.run.output);
-  REQUIRE(answer.run.code == 0);
-  answer.json = Json::parse(std::ifstream(path));
-  std::filesystem::remove(path);
-  return answer;
-}
+Answer ask(const std::string& arguments) { return limpid::test::ask_program("design_gain", arguments); }
 
 void refused(const std::string& arguments, const std::string& option) {
-  CAPTURE(arguments);
-  const ProgramRun result = run_program("design_gain", arguments);
-  CAPTURE(result.output);
-  CHECK(result.code != 0);
-  CHECK(result.mentions(option));
+  limpid::test::check_refused("design_gain", arguments, option);
 }
 
 }  // namespace

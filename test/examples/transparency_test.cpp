@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
-#include <support/run_program.hpp>
+#include <support/ask_program.hpp>
 
 #include <array>
 #include <cmath>
@@ -13,32 +13,15 @@
 
 namespace {
 
+using limpid::test::Answer;
 using limpid::test::ProgramRun;
 using limpid::test::run_program;
 using Json = nlohmann::json;
 
-struct Answer {
-  ProgramRun run;
-  Json json;
-};
-
-Answer ask(const std::string& arguments) {
-  CAPTURE(arguments);
-  const auto path = std::filesystem::temp_directory_path() / "limpid_transparency.json";
-  Answer answer{run_program("transparency", arguments + " --json " + path.string()), {}};
-  CAPTURE(answer.run.output);
-  REQUIRE(answer.run.code == 0);
-  answer.json = Json::parse(std::ifstream(path));
-  std::filesystem::remove(path);
-  return answer;
-}
+Answer ask(const std::string& arguments) { return limpid::test::ask_program("transparency", arguments); }
 
 void refused(const std::string& arguments, const std::string& option) {
-  CAPTURE(arguments);
-  const ProgramRun result = run_program("transparency", arguments);
-  CAPTURE(result.output);
-  CHECK(result.code != 0);
-  CHECK(result.mentions(option));
+  limpid::test::check_refused("transparency", arguments, option);
 }
 
 void agrees(const Json& actual, double expected, double part) {
