@@ -8,6 +8,7 @@
 #include <limpid/core/finite.hpp>
 #include <limpid/core/flat.hpp>
 #include <limpid/core/held_step.hpp>
+#include <limpid/core/ieee.hpp>
 #include <limpid/core/inverse_factorial.hpp>
 #include <limpid/core/lane_math.hpp>
 #include <limpid/core/lanes.hpp>

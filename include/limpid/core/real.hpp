@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/ieee.hpp>
+
 #include <cmath>
 #include <concepts>
 #include <limits>
