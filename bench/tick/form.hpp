@@ -56,6 +56,7 @@ template <typename Scalar, typename Loop>
 
 // One source each: in a larger one g++ runs into its limits of inlining and measures those.
 [[nodiscard]] Form straightforward_form();
+[[nodiscard]] Form dynamic_form();
 [[nodiscard]] Form simd_form();
 [[nodiscard]] Form composed_form();
 [[nodiscard]] Form hand_written_form();
@@ -66,8 +67,8 @@ template <typename Scalar, typename Loop>
 /// All of them, an empty one first and the straightforward one second.
 [[nodiscard]] std::vector<Form> all_forms();
 
-/// Largest difference of the composed tick's torque, or the SIMD one's, over 10 s from the straightforward one's, over
-/// the largest torque.
+/// Largest difference of the composed tick's torque, the SIMD one's, or the dynamic one's, over 10 s from the
+/// straightforward one's, over the largest torque.
 [[nodiscard]] double difference_from_straightforward();
 
 }  // namespace limpid::bench

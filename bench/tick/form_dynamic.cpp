@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "tick/dynamic_tick.hpp"
+#include "tick/form.hpp"
+
+namespace limpid::bench {
+
+Form dynamic_form() {
+  return Form::of<double>("dynamic",
+                          [tick = DynamicTick(TickParts<double>::settings())](Time now, const auto& in) mutable {
+                            return tick.step(now, in.F_h, in.tool, in.device.q, in.device.qdot);
+                          });
+}
+
+}  // namespace limpid::bench
