@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The whole tick of three axes in all its forms: `tick ratio`, `tick instructions`, `tick latency [TICKS]`,
-// `tick once FORM TICKS`. Of the composed form some ratios are asked: 1 is
-// returned where one is missed.
+// `tick cold [TICKS]`, `tick once FORM TICKS`. Of the composed form some ratios are asked: 1 is returned where one is
+// missed.
 #include "count_instructions.hpp"
 #include "tick/form.hpp"
 
@@ -103,6 +103,32 @@ int print_latencies(long ticks) {
   return met ? 0 : 1;
 }
 
+/// Before each tick 64 MiB of other memory are walked, as by a millisecond of other work; the forms take turns, so that
+/// none finds its instructions in the nearest cache.
+int print_cold(long ticks) {
+  std::vector<unsigned char> memory(std::size_t{64} << 20);
+  const auto walk = [&] {
+    for (std::size_t line = 0; line < memory.size(); line += 64) ++memory[line];
+    benchmark::DoNotOptimize(memory.data());
+  };
+  std::vector<Form> forms{straightforward_form(), simd_form(), composed_form()};
+  std::vector<LatencyHistogram> histograms(forms.size());
+  for (Form& form : forms) form.run(2000);
+  for (long tick = 0; tick < ticks; ++tick) {
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      walk();
+      forms[i].run(1, &histograms[i]);
+    }
+  }
+  std::printf("%ld ticks, %zu MiB walked before each; ns, the clock's own cost included\n%-24s %8s %8s\n", ticks,
+              memory.size() >> 20, "", "p50", "p90");
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    std::printf("%-24s %8ld %8ld\n", forms[i].name().data(), static_cast<long>(histograms[i].quantile(0.5).count()),
+                static_cast<long>(histograms[i].quantile(0.9).count()));
+  }
+  return 0;
+}
+
 /// Of one tick: the difference of two runs of different length, less that of the empty form.
 int print_instructions() {
   constexpr long few = 8, more = 24, settling = 2000;
@@ -140,9 +166,10 @@ int main(int argc, char** argv) {
   const std::string_view command = argc > 1 ? argv[1] : "";
   if (command == "ratio" && argc == 2) return print_ratios();
   if (command == "instructions" && argc == 2) return print_instructions();
-  const long ticks = argc > 2 ? std::atol(argv[argc - 1]) : 10'000'000;
+  const long ticks = argc > 2 ? std::atol(argv[argc - 1]) : command == "cold" ? 1000 : 10'000'000;
   if (command == "latency" && argc <= 3 && ticks > 0) return print_latencies(ticks);
+  if (command == "cold" && argc <= 3 && ticks > 0) return print_cold(ticks);
   if (command == "once" && argc == 4 && ticks > 0) return run_once(argv[2], ticks);
-  std::fprintf(stderr, "tick: expected ratio, instructions, latency [TICKS] or once FORM TICKS\n");
+  std::fprintf(stderr, "tick: expected ratio, instructions, latency [TICKS], cold [TICKS] or once FORM TICKS\n");
   return 1;
 }
