@@ -129,14 +129,24 @@ inline constexpr bool in_lanes = (std::same_as<typename Array::Scalar, float> ||
 
 template <typename Value, typename Array>
 [[gnu::always_inline]] inline void load(Value& value, const Array& array) noexcept {
-  const Eigen::Array<double, Array::SizeAtCompileTime, 1, Eigen::DontAlign> doubles = array.template cast<double>();
-  std::memcpy(&value, doubles.data(), sizeof value);
+  if constexpr (std::same_as<typename Array::Scalar, double>) {
+    std::memcpy(&value, array.data(), sizeof value);  // in one piece: gathered from several it would stall
+  } else {
+    const Eigen::Array<double, Array::SizeAtCompileTime, 1, Eigen::DontAlign> doubles = array.template cast<double>();
+    std::memcpy(&value, doubles.data(), sizeof value);
+  }
 }
 template <typename Array, typename Value>
 [[gnu::always_inline]] inline Array stored(const Value& value) noexcept {
-  Eigen::Array<double, Array::SizeAtCompileTime, 1, Eigen::DontAlign> doubles;
-  std::memcpy(doubles.data(), &value, sizeof value);
-  return doubles.template cast<typename Array::Scalar>();
+  if constexpr (std::same_as<typename Array::Scalar, double>) {
+    Array array;
+    std::memcpy(array.data(), &value, sizeof value);
+    return array;
+  } else {
+    Eigen::Array<double, Array::SizeAtCompileTime, 1, Eigen::DontAlign> doubles;
+    std::memcpy(doubles.data(), &value, sizeof value);
+    return doubles.template cast<typename Array::Scalar>();
+  }
 }
 
 }  // namespace detail
