@@ -10,7 +10,9 @@
 #include <limpid/core/held_step.hpp>
 #include <limpid/core/ieee.hpp>
 #include <limpid/core/inverse_factorial.hpp>
+#include <limpid/core/lane_exponential.hpp>
 #include <limpid/core/lane_math.hpp>
+#include <limpid/core/lane_power.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
