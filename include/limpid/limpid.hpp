@@ -13,6 +13,7 @@
 #include <limpid/core/lane_exponential.hpp>
 #include <limpid/core/lane_math.hpp>
 #include <limpid/core/lane_power.hpp>
+#include <limpid/core/lane_select.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
