@@ -89,6 +89,7 @@ void append(Signals& signals, const Values& values) {
 [[nodiscard]] std::vector<Case> velocity_cases();
 [[nodiscard]] std::vector<Case> observer_cases();
 [[nodiscard]] std::vector<Case> trigonometry_cases();
+[[nodiscard]] std::vector<Case> exponential_cases();
 [[nodiscard]] std::vector<Case> omni_cases();
 [[nodiscard]] std::vector<Case> whole_tick_cases();
 
