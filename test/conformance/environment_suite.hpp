@@ -115,6 +115,31 @@ void check_tangent_is_the_derivative(const E& e, const EnvironmentRange<E>& rang
   }
 }
 
+/// The response is force and tangent at the point. Found by the same sums, of which a compiler may contract others:
+/// within two roundings of each term, and the force's terms are as large as a stiff damper's and spring's.
+template <Environment E>
+void check_response_is_force_and_tangent(const E& e, const EnvironmentRange<E>& range) {
+  using Traits = EnvironmentTraits<E>;
+  using Scalar = typename Traits::Scalar;
+  using Vector = EnvironmentVector<E>;
+  const Scalar roundings = Scalar(2 * (Traits::parameters + 2)) * std::numeric_limits<Scalar>::epsilon();
+  RandomContact<E> at(range, 18820101);
+  for (int i = 0; i < 200; ++i) {
+    CAPTURE(i);
+    at.draw();
+    const Vector force = Traits::force(e, at.theta, at.x, at.v);
+    const auto tangent = Traits::tangent(e, at.theta, at.x, at.v);
+    const auto both = response_of(e, at.theta, at.x, at.v);
+    const Vector size = (Traits::regressor(e, at.x, at.v) * at.theta).abs().rowwise().sum() +
+                        Traits::force(e, EnvironmentTheta<E>::Zero(), at.x, at.v).abs();
+    REQUIRE(((both.force - force).abs() <= roundings * size).all());
+    // the stiffness of a force that is a product with v: that of its terms, over the depth
+    const Vector stiff = tangent.stiffness.abs() + size / at.x.abs();
+    REQUIRE(((both.tangent.stiffness - tangent.stiffness).abs() <= roundings * stiff).all());
+    REQUIRE(((both.tangent.damping - tangent.damping).abs() <= roundings * tangent.damping.abs()).all());
+  }
+}
+
 /// `linear`: the tangent is the same everywhere. `decoupled`: moving an axis leaves the others' forces as they are.
 template <Environment E>
 void check_flags_are_true(const E& e, const EnvironmentRange<E>& range) {
@@ -155,6 +180,8 @@ void check_finite_everywhere(const E& e, const EnvironmentRange<E>& range) {
       const Vector x = Vector::Constant(Scalar(range.deepest * deep)),
                    v = Vector::Constant(Scalar(range.fastest * fast));
       const auto tangent = Traits::tangent(e, range.upper, x, v);
+      const auto both = response_of(e, range.upper, x, v);
+      REQUIRE((is_finite(both.force) && is_finite(both.tangent.stiffness) && is_finite(both.tangent.damping)));
       REQUIRE(is_finite(Traits::regressor(e, x, v)));
       REQUIRE(is_finite(Traits::force(e, range.upper, x, v)));
       REQUIRE(is_finite(tangent.stiffness));
@@ -170,7 +197,7 @@ void check_allocates_nothing(const E& e, const EnvironmentRange<E>& range) {
   EnvironmentVector<E> sum = EnvironmentVector<E>::Zero();
   check_no_allocation([&] {
     sum += Traits::regressor(e, x, x).col(0) + Traits::force(e, range.upper, x, x);
-    sum += Traits::tangent(e, range.upper, x, x).stiffness;
+    sum += Traits::tangent(e, range.upper, x, x).stiffness + response_of(e, range.upper, x, x).force;
   });
   CHECK(is_finite(sum));
 }
@@ -179,6 +206,7 @@ void check_allocates_nothing(const E& e, const EnvironmentRange<E>& range) {
 template <Environment E>
 void check_environment(const E& e, const EnvironmentRange<E>& range) {
   check_force_is_linear_in_theta(e, range);
+  check_response_is_force_and_tangent(e, range);
   check_flags_are_true(e, range);
   check_finite_everywhere(e, range);
   check_allocates_nothing(e, range);

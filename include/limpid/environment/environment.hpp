@@ -18,6 +18,13 @@ struct Tangents {
   Vector damping = Vector::Zero();    ///< dF/dv, N s/m
 };
 
+/// An environment's force and its slopes at one point, found together.
+template <int Axes = 1, Real Scalar = double>
+struct ForceAndTangent {
+  Eigen::Array<Scalar, Axes, 1> force = Eigen::Array<Scalar, Axes, 1>::Zero();  ///< N
+  Tangents<Axes, Scalar> tangent{};
+};
+
 /// What adapts a type to the Environment concept. The primary template forwards to members of the same names; to adapt
 /// a foreign type, specialise it with all of
 ///
@@ -29,9 +36,11 @@ struct Tangents {
 ///     regressor(e, x, v)             phi: a row for each axis, a column for each parameter
 ///     force(e, theta, x, v)          N, positive against the press; theta shaped as phi
 ///     tangent(e, theta, x, v)        Tangents
+///     response(e, theta, x, v)       ForceAndTangent (optional: where both share work; see `response_of`)
 ///
-/// Laws: force(theta) = (phi * theta).rowwise().sum() + force(0); the tangent is the derivative of the force; all are
-/// finite for finite arguments of a palpation's size, `noexcept`, and allocate nothing.
+/// Laws: force(theta) = (phi * theta).rowwise().sum() + force(0); the tangent is the derivative of the force; the
+/// response is both, to some roundings; all are finite for finite arguments of a palpation's size, `noexcept`, and
+/// allocate nothing.
 template <typename E>
 struct EnvironmentTraits {};
 
@@ -73,6 +82,15 @@ struct EnvironmentTraits<E> {
   static Tangents<axes, Scalar> tangent(const E& e, const Theta& theta, const Vector& x, const Vector& v) noexcept {
     return e.tangent(theta, x, v);
   }
+
+  static ForceAndTangent<axes, Scalar> response(const E& e, const Theta& theta, const Vector& x,
+                                                const Vector& v) noexcept {
+    if constexpr (requires { e.response(theta, x, v); }) {
+      return e.response(theta, x, v);
+    } else {
+      return {e.force(theta, x, v), e.tangent(theta, x, v)};
+    }
+  }
 };
 
 /// Positions, velocities and forces: one entry for each axis.
@@ -99,6 +117,20 @@ concept Environment = std::copyable<E> && Real<typename EnvironmentTraits<E>::Sc
     EnvironmentTraits<E>::tangent(e, theta, x, x)
     } -> std::convertible_to<Tangents<EnvironmentTraits<E>::axes, typename EnvironmentTraits<E>::Scalar>>;
 };
+
+/// Force and tangent at a point, in one evaluation where the environment's traits know of one.
+/// @realtime  as E, no allocation, no throw
+template <Environment E>
+[[nodiscard]] ForceAndTangent<EnvironmentTraits<E>::axes, typename EnvironmentTraits<E>::Scalar> response_of(
+    const E& e, const EnvironmentTheta<E>& theta, const EnvironmentVector<E>& x,
+    const EnvironmentVector<E>& v) noexcept {
+  using Traits = EnvironmentTraits<E>;
+  if constexpr (requires { Traits::response(e, theta, x, v); }) {
+    return Traits::response(e, theta, x, v);
+  } else {
+    return {Traits::force(e, theta, x, v), Traits::tangent(e, theta, x, v)};
+  }
+}
 
 /// An environment whose force is affine in position and velocity: exact steps exist for all time.
 template <typename E>

@@ -76,6 +76,11 @@ class Fixed {
     return Traits::tangent(environment_, full(theta), x, v);
   }
 
+  [[nodiscard]] ForceAndTangent<axes, Scalar> response(const Theta& theta, const Vector& x,
+                                                       const Vector& v) const noexcept {
+    return response_of(environment_, full(theta), x, v);
+  }
+
  private:
   static constexpr std::array<int, static_cast<std::size_t>(parameters)> free_indices = [] {
     std::array<int, static_cast<std::size_t>(parameters)> indices{};
