@@ -3,6 +3,8 @@
 
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/lane_power.hpp>
+#include <limpid/core/lane_select.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/environment/environment.hpp>
 
@@ -39,29 +41,34 @@ class HuntCrossley {
   }
 
   [[nodiscard]] Theta regressor(const Vector& x, const Vector& v) const noexcept {
-    const Vector slope = power(x);
+    const Vector depth = x.abs(), slope = power(depth, Scalar(exponent_ - Scalar{1}));
     Theta phi;
-    phi << slope * x, slope * x.abs() * v, v;
+    phi << slope * x, slope * depth * v, v;
     return phi;
   }
 
   [[nodiscard]] Vector force(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
-    return (theta * regressor(x, v)).rowwise().sum();
+    return response(theta, x, v).force;
   }
 
   [[nodiscard]] Tangents<Axes, Scalar> tangent(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
-    const Vector slope = power(x);
-    return {exponent_ * slope * (theta.col(0) + theta.col(1) * x.sign() * v),
-            theta.col(1) * slope * x.abs() + theta.col(2)};
+    return response(theta, x, v).tangent;
+  }
+
+  /// From one power |x|^(N - 1).
+  [[nodiscard]] ForceAndTangent<Axes, Scalar> response(const Theta& theta, const Vector& x,
+                                                       const Vector& v) const noexcept {
+    const auto k = theta.col(0), lambda = theta.col(1), b = theta.col(2);
+    const Vector depth = x.abs(), slope = power(depth, Scalar(exponent_ - Scalar{1}));
+    const Vector damping = lambda * slope * depth + b;
+    return {k * slope * x + damping * v, {exponent_ * slope * (k + lambda * approach(x, v)), damping}};
   }
 
  private:
-  // |x|^(N - 1)
-  [[nodiscard]] Vector power(const Vector& x) const noexcept {
-    return x.abs().unaryExpr([exponent = Scalar(exponent_ - Scalar{1})](const Scalar& entry) {
-      using std::pow;
-      return Scalar(pow(entry, exponent));
-    });
+  // sign(x) v
+  static Vector approach(const Vector& x, const Vector& v) noexcept {
+    const Vector none = Vector::Zero();
+    return where_positive(x, v, where_positive(Vector(-x), Vector(-v), none));
   }
 
   Scalar exponent_;
