@@ -3,6 +3,9 @@
 
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/lane_exponential.hpp>
+#include <limpid/core/lane_select.hpp>
+#include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/environment/environment.hpp>
 
@@ -36,50 +39,68 @@ class SmoothBilinear {
   };
 
   /// @throws std::invalid_argument  where a setting is not positive and finite
-  explicit SmoothBilinear(const Settings& settings) : depth_{settings.depth}, sharpness_{settings.sharpness} {
-    expect(is_finite(depth_) && depth_ > Scalar{0}, "SmoothBilinear: depth", "finite and > 0", depth_);
-    expect(is_finite(sharpness_) && sharpness_ > Scalar{0}, "SmoothBilinear: sharpness", "finite and > 0", sharpness_);
+  explicit SmoothBilinear(const Settings& settings)
+      : depth_{settings.depth},
+        steepness_{settings.sharpness / settings.depth},
+        width_{settings.depth / settings.sharpness} {
+    const auto& [depth, sharpness] = settings;
+    expect(is_finite(depth) && depth > Scalar{0}, "SmoothBilinear: depth", "finite and > 0", depth);
+    expect(is_finite(sharpness) && sharpness > Scalar{0}, "SmoothBilinear: sharpness", "finite and > 0", sharpness);
   }
 
-  [[nodiscard]] Theta regressor(const Vector& x, const Vector& v) const noexcept {
-    const Vector round = rounding(x);
+  [[nodiscard]] Theta regressor(const Vector& position, const Vector& v) const noexcept {
+    const Array x = to_lanes<Axes>(position), round = rounding(small(distance(x)));
     Theta phi;
-    phi << x.min(depth_) - round, (x - depth_).max(Scalar{0}) + round, v;
+    phi << before(x, round).template head<Axes>(), beyond(x, round).template head<Axes>(), v;
     return phi;
   }
 
   [[nodiscard]] Vector force(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
-    return (theta * regressor(x, v)).rowwise().sum();
+    return response(theta, x, v).force;
   }
 
   [[nodiscard]] Tangents<Axes, Scalar> tangent(const Theta& theta, const Vector& x, const Vector&) const noexcept {
-    const Vector away = distance(x);
-    const Vector small = exp_minus(away.abs());                                                    // at most 1
-    const Vector beyond = (away > Scalar{0}).select(Vector::Ones(), small) / (Scalar{1} + small);  // ds/dx
-    return {theta.col(0) * (Scalar{1} - beyond) + theta.col(1) * beyond, theta.col(2)};
+    const Array away = distance(to_lanes<Axes>(x));
+    return {stiffness(theta, away, small(away)).template head<Axes>(), theta.col(2)};
+  }
+
+  /// From one exponential.
+  [[nodiscard]] ForceAndTangent<Axes, Scalar> response(const Theta& theta, const Vector& position,
+                                                       const Vector& velocity) const noexcept {
+    const Array x = to_lanes<Axes>(position), v = to_lanes<Axes>(velocity);
+    const Array k1 = to_lanes<Axes>(theta.col(0)), k2 = to_lanes<Axes>(theta.col(1)), b = to_lanes<Axes>(theta.col(2));
+    const Array away = distance(x), tail = small(away), round = rounding(tail);
+    return {(k1 * before(x, round) + k2 * beyond(x, round) + b * v).template head<Axes>(),
+            {stiffness(theta, away, tail).template head<Axes>(), theta.col(2)}};
   }
 
  private:
+  using Array = Lanes<Axes, Scalar>;
+
   // R (x/x_s - 1); from the difference, which is exact near x_s
-  [[nodiscard]] Vector distance(const Vector& x) const noexcept { return sharpness_ * ((x - depth_) / depth_); }
+  [[nodiscard]] Array distance(const Array& x) const noexcept { return steepness_ * (x - depth_); }
+
+  // exp(-|R (x/x_s - 1)|), at most 1
+  static Array small(const Array& away) noexcept { return exponential(Array(-away.abs())); }
 
   // What the soft corner adds to the sharp one: (x_s / R) ln(1 + exp(-|R (x/x_s - 1)|))
-  [[nodiscard]] Vector rounding(const Vector& x) const noexcept {
-    return (depth_ / sharpness_) * exp_minus(distance(x).abs()).unaryExpr([](const Scalar& small) {
-      using std::log1p;
-      return Scalar(log1p(small));
-    });
+  [[nodiscard]] Array rounding(const Array& tail) const noexcept { return width_ * logarithm_of_one_plus(tail); }
+
+  // x - s and s
+  [[nodiscard]] Array before(const Array& x, const Array& round) const noexcept { return x.min(depth_) - round; }
+  [[nodiscard]] Array beyond(const Array& x, const Array& round) const noexcept {
+    return (x - depth_).max(Scalar{0}) + round;
   }
 
-  [[nodiscard]] static Vector exp_minus(const Vector& y) noexcept {
-    return y.unaryExpr([](const Scalar& entry) {
-      using std::exp;
-      return Scalar(exp(-entry));
-    });
+  // k1 (1 - ds/dx) + k2 ds/dx
+  [[nodiscard]] static Array stiffness(const Theta& theta, const Array& away, const Array& tail) noexcept {
+    const Array k1 = to_lanes<Axes>(theta.col(0)), k2 = to_lanes<Axes>(theta.col(1)), one = Array::Ones();
+    const Array part = where_positive(away, one, tail) / (one + tail);
+    return k1 * (one - part) + k2 * part;
   }
 
   Scalar depth_;
-  Scalar sharpness_;
+  Scalar steepness_, width_;  // R / x_s, x_s / R
 };
 
 }  // namespace limpid
