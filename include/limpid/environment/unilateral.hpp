@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/lane_select.hpp>
 #include <limpid/environment/environment.hpp>
 
 #include <Eigen/Core>
@@ -42,18 +43,29 @@ class Unilateral {
   }
 
   [[nodiscard]] Vector force(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
-    const Vector pressing = Traits::force(environment_, theta, x, v).max(Scalar{0});
-    return (x > Scalar{0}).select(pressing, Vector::Zero());
+    return pressing(x, Traits::force(environment_, theta, x, v));
   }
 
   [[nodiscard]] Tangents<axes, Scalar> tangent(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
-    const Tangents<axes, Scalar> inner = Traits::tangent(environment_, theta, x, v);
-    const Vector pressing = force(theta, x, v);
-    return {(pressing > Scalar{0}).select(inner.stiffness, Vector::Zero()),
-            (pressing > Scalar{0}).select(inner.damping, Vector::Zero())};
+    return response(theta, x, v).tangent;
+  }
+
+  /// From one response of E.
+  [[nodiscard]] ForceAndTangent<axes, Scalar> response(const Theta& theta, const Vector& x,
+                                                       const Vector& v) const noexcept {
+    const auto [force, slopes] = response_of(environment_, theta, x, v);
+    const Vector here = pressing(x, force);
+    return {here, {where_positive(here, slopes.stiffness, none()), where_positive(here, slopes.damping, none())}};
   }
 
  private:
+  static Vector none() noexcept { return Vector::Zero(); }
+
+  // The force of E but for a pull, inside the wall.
+  static Vector pressing(const Vector& x, const Vector& force) noexcept {
+    return where_positive(x, where_positive(Vector(-force), none(), force), none());
+  }
+
   E environment_;
 };
 
