@@ -2,39 +2,79 @@
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
+#include <limpid/environment/unilateral.hpp>
 #include <limpid/environment/virtual_tool.hpp>
 
 #include <benchmark/benchmark.h>
+
+#include <string>
+#include <type_traits>
 
 namespace {
 
 using namespace std::chrono_literals;
 
-template <limpid::Environment E>
-void run_force(benchmark::State& state, const E& e, const limpid::EnvironmentTheta<E>& theta) {
-  Eigen::Array3d x{0.003, 0.001, 0.002}, v{0.01, -0.02, 0.005};
+// One of three axes, or all.
+template <int axes>
+Eigen::Array<double, axes, 1> first(double x, double y, double z) {
+  return Eigen::Array3d(x, y, z).head<axes>();
+}
+
+// What is asked of an environment at a point.
+struct Force {
+  template <typename E, typename... At>
+  auto operator()(const E& e, const At&... at) const noexcept {
+    return e.force(at...);
+  }
+};
+struct Tangent {
+  template <typename E, typename... At>
+  auto operator()(const E& e, const At&... at) const noexcept {
+    return e.tangent(at...);
+  }
+};
+struct Response {
+  template <typename E, typename... At>
+  auto operator()(const E& e, const At&... at) const noexcept {
+    return limpid::response_of(e, at...);
+  }
+};
+
+// Flat, as a predictor is.
+template <typename Ask, typename Make>
+[[gnu::flatten]] void run(benchmark::State& state, Make make) {
+  const auto e = make();
+  using E = std::remove_const_t<decltype(e)>;
+  const auto theta = limpid::EnvironmentTheta<E>::Constant(100).eval();
+  auto x = first<E::axes>(0.003, 0.001, 0.002), v = first<E::axes>(0.01, -0.02, 0.005);
   for (auto _ : state) {
     benchmark::DoNotOptimize(x);
     benchmark::DoNotOptimize(v);
-    benchmark::DoNotOptimize(e.force(theta, x, v));
+    benchmark::DoNotOptimize(Ask{}(e, theta, x, v));
   }
 }
 
-void kelvin_voigt_force_3_axes(benchmark::State& state) {
-  run_force(state, limpid::KelvinVoigt<3>{}, Eigen::Array<double, 3, 2>::Constant(100));
+template <typename Make>
+void add(const std::string& name, Make make) {
+  benchmark::RegisterBenchmark((name + "_force").c_str(), run<Force, Make>, make);
+  benchmark::RegisterBenchmark((name + "_tangent").c_str(), run<Tangent, Make>, make);
+  benchmark::RegisterBenchmark((name + "_response").c_str(), run<Response, Make>, make);
 }
-BENCHMARK(kelvin_voigt_force_3_axes);
 
-void smooth_bilinear_force_3_axes(benchmark::State& state) {
-  run_force(state, limpid::SmoothBilinear<3>({.depth = 0.00284, .sharpness = 20}),
-            Eigen::Array<double, 3, 3>::Constant(100));
+template <int axes>
+bool add_models(const std::string& of) {
+  using namespace limpid;
+  add("kelvin_voigt_" + of, [] { return KelvinVoigt<axes>{}; });
+  add("smooth_bilinear_" + of, [] { return SmoothBilinear<axes>({.depth = 0.00284, .sharpness = 20}); });
+  add("hunt_crossley_" + of, [] { return HuntCrossley<axes>({.exponent = 1.3}); });
+  add("unilateral_kelvin_voigt_" + of, [] {
+    using Wall = Unilateral<KelvinVoigt<axes>>;
+    return Wall(typename Wall::Settings{});
+  });
+  return true;
 }
-BENCHMARK(smooth_bilinear_force_3_axes);
 
-void hunt_crossley_force_3_axes(benchmark::State& state) {
-  run_force(state, limpid::HuntCrossley<3>({.exponent = 1.3}), Eigen::Array<double, 3, 3>::Constant(100));
-}
-BENCHMARK(hunt_crossley_force_3_axes);
+[[maybe_unused]] const bool added = add_models<1>("1_axis") && add_models<3>("3_axes");
 
 template <limpid::Environment E>
 void run_tool(benchmark::State& state, const E& e, const limpid::EnvironmentTheta<E>& theta) {
