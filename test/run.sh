@@ -23,7 +23,8 @@ esac
 
 export CMAKE_GENERATOR=Ninja
 CTEST_PARALLEL_LEVEL=$(nproc)
-export CTEST_PARALLEL_LEVEL
+CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}  # ninja's own, two more, takes 5 GB more at the peak
+export CTEST_PARALLEL_LEVEL CMAKE_BUILD_PARALLEL_LEVEL
 [ -n "$long" ] || exec cmake --workflow --preset dev
 
 cmake --workflow --preset dev
