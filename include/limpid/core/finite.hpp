@@ -25,4 +25,13 @@ template <typename Derived>
   }
 }
 
+/// Whether every entry of arrays of one shape is finite: one test for all, as above.
+/// @realtime  no allocation
+template <typename First, typename... Rest>
+[[nodiscard]] EIGEN_ALWAYS_INLINE bool are_finite(const Eigen::ArrayBase<First>& first,
+                                                  const Eigen::ArrayBase<Rest>&... rest) noexcept {
+  const typename First::Scalar none{0};
+  return ((first.derived() * none) + ... + (rest.derived() * none)).sum() == none;
+}
+
 }  // namespace limpid

@@ -10,8 +10,9 @@ namespace limpid {
 
 namespace detail {
 
+// Not kept apart: where it is called once it becomes part of the caller, and what it returns is not built in memory.
 template <typename F>
-[[gnu::flatten, gnu::noinline]] decltype(auto) flattened(F&& f) noexcept(noexcept(f())) {
+[[gnu::flatten]] inline decltype(auto) flattened(F&& f) noexcept(noexcept(f())) {
   return std::forward<F>(f)();
 }
 

@@ -57,6 +57,17 @@ struct Doubles<1> {
   using Bits = std::int64_t;
 };
 
+/// Whether the compiler may hold four doubles in one register. Where not it takes choices between them one by one: then
+/// they go in two halves.
+#ifdef __AVX__
+inline constexpr bool four_in_a_register = true;
+#else
+inline constexpr bool four_in_a_register = false;
+#endif
+template <int n>
+inline constexpr bool in_halves = n == 4 && !four_in_a_register;
+using Halves = std::array<Doubles<2>::Value, 2>;
+
 /// Coefficients in powers of z, in two halves that the processor takes at once. Vectors go by reference: by value their
 /// ABI would depend on the processor.
 template <typename Value, std::size_t count>
@@ -80,6 +91,14 @@ template <typename Scalar, int n>
   using Value = typename Doubles<n>::Value;
   using Bits = typename Doubles<n>::Bits;
   using Polynomials = TrigonometricPolynomials<Scalar>;
+  if constexpr (in_halves<n>) {
+    Halves at, s, c;
+    std::memcpy(&at, &angle, sizeof at);
+    for (std::size_t i = 0; i < at.size(); ++i) sine_cosine<Scalar, 2>(at[i], s[i], c[i]);
+    std::memcpy(&sine, &s, sizeof sine);
+    std::memcpy(&cosine, &c, sizeof cosine);
+    return;
+  }
   constexpr double shift = 0x1.8p52;  // a sum with it is rounded to whole numbers, whose last bits are the double's
   const Value shifted = angle * 0.63661977236758134308 + shift, quarters = shifted - shift;
   Bits quarter;
@@ -103,6 +122,14 @@ template <typename Scalar, int n>
 [[gnu::always_inline]] inline void arc_tangent(const typename Doubles<n>::Value& y, const typename Doubles<n>::Value& x,
                                                typename Doubles<n>::Value& angle) noexcept {
   using Value = typename Doubles<n>::Value;
+  if constexpr (in_halves<n>) {
+    Halves up, along_x, result;
+    std::memcpy(&up, &y, sizeof up);
+    std::memcpy(&along_x, &x, sizeof along_x);
+    for (std::size_t i = 0; i < up.size(); ++i) arc_tangent<Scalar, 2>(up[i], along_x[i], result[i]);
+    std::memcpy(&angle, &result, sizeof angle);
+    return;
+  }
   const Value a = y < 0.0 ? -y : y, b = x < 0.0 ? -x : x;
   const auto steep = a > b;
   const Value longer = steep ? a : b, shorter = steep ? b : a;
@@ -156,7 +183,7 @@ template <typename Array, typename Value>
 /// sine of -0 is 0. Of three angles in 22 ns to 1.1e-16; libm in 73 to 6e-17 (bench/time_error).
 /// @realtime  no allocation, no throw; some 50 flops an entry
 template <typename Array>
-[[nodiscard]] SineCosine<Array> sine_cosine(const Array& angle) noexcept {
+[[nodiscard, gnu::always_inline]] inline SineCosine<Array> sine_cosine(const Array& angle) noexcept {
   using Scalar = typename Array::Scalar;
   using std::cos, std::sin;
   if constexpr (detail::in_lanes<Array>) {
@@ -176,7 +203,7 @@ template <typename Array>
 /// the last place, for |x| + |y| below the largest number. A zero has no sign.
 /// @realtime  no allocation, no throw; one division and some 40 flops an entry
 template <typename Array>
-[[nodiscard]] Array arc_tangent(const Array& y, const Array& x) noexcept {
+[[nodiscard, gnu::always_inline]] inline Array arc_tangent(const Array& y, const Array& x) noexcept {
   using Scalar = typename Array::Scalar;
   using std::atan2;
   if constexpr (detail::in_lanes<Array>) {

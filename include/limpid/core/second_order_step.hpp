@@ -30,13 +30,16 @@ template <int Axes = 1, Real Scalar = double>
 class SecondOrderStep {
  public:
   using Vector = Eigen::Array<Scalar, Axes, 1>;
+  using Array = Lanes<Axes, Scalar>;
 
   /// @param kappa  stiffness over mass, 1/s^2
   /// @param beta   damping over mass, 1/s
   /// @param h      length of the step, s, not negative
   /// Where beta h or sqrt(kappa) h is not finite there is no step: `advance` then gives NaN.
   void set(const Vector& kappa, const Vector& beta, const Scalar& h) noexcept {
-    const Array k = to_lanes<Axes>(kappa), b = to_lanes<Axes>(beta);
+    set_lanes(to_lanes<Axes>(kappa), to_lanes<Axes>(beta), h);
+  }
+  void set_lanes(const Array& k, const Array& b, const Scalar& h) noexcept {
     Scalar piece = h;
     int doublings = 0;
     if (is_too_long(k, b, h)) [[unlikely]]
@@ -52,10 +55,17 @@ class SecondOrderStep {
   /// Takes (x, v) from the start of the step to its end.
   /// @param f0, f1  force over mass at the start and at the end, m/s^2
   void advance(Vector& x, Vector& v, const Vector& f0, const Vector& f1) const noexcept {
-    const Array x0 = lanes(x), v0 = lanes(v), f = lanes(f0), slope = (lanes(f1) - f) * rate_;
+    Array x_lanes = to_lanes<Axes>(x), v_lanes = to_lanes<Axes>(v);
+    advance_lanes(x_lanes, v_lanes, to_lanes<Axes>(f0), to_lanes<Axes>(f1));
+    x = from_lanes<Axes>(x_lanes);
+    v = from_lanes<Axes>(v_lanes);
+  }
+  void advance_lanes(Array& x, Array& v, const Array& f0, const Array& f1) const noexcept {
+    const Array slope = (f1 - f0) * rate_;
     // f first: the chain from step to step is then two products long
-    x = (r_ * slope + s_ * f + position_decay_ * x0 + g_ * v0).template head<Axes>();
-    v = (s_ * slope + g_ * f + velocity_from_position_ * x0 + velocity_decay_ * v0).template head<Axes>();
+    const Array x1 = r_ * slope + s_ * f0 + position_decay_ * x + g_ * v;
+    v = s_ * slope + g_ * f0 + velocity_from_position_ * x + velocity_decay_ * v;
+    x = x1;
   }
 
   [[nodiscard]] Vector impulse_response() const noexcept { return g_.template head<Axes>(); }  ///< g(h), s
@@ -63,10 +73,6 @@ class SecondOrderStep {
   [[nodiscard]] Vector ramp_response() const noexcept { return r_.template head<Axes>(); }     ///< r(h), s^3
 
  private:
-  using Array = Lanes<Axes, Scalar>;
-
-  static Array lanes(const Vector& values) noexcept { return to_lanes<Axes>(values); }
-
   static constexpr double longest = 0.5;  // of |beta| h and sqrt(|kappa|) h within one series
 
   // From the scalar's largest number to `longest`; of scalars with wider exponents than any built-in one, fewer.
