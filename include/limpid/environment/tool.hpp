@@ -3,6 +3,7 @@
 
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
+#include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/signal/intersample.hpp>
 #include <limpid/signal/sample.hpp>
@@ -66,17 +67,16 @@ struct ToolState {
 template <int Axes = 1, Real Scalar = double>
 using ToolSample = Sample<ToolState<Axes, Scalar>>;
 
-/// @realtime  no allocation; one test for all entries: zero times a finite number is zero, times any other it is NaN
+/// @realtime  no allocation; one test for all entries
 template <int Axes, Real Scalar>
 [[nodiscard]] bool is_finite(const Motion<Axes, Scalar>& motion) noexcept {
-  const Scalar none{0};
-  return (motion.x * none + motion.v * none + motion.a * none).sum() == none;
+  return are_finite(to_lanes<Axes>(motion.x), to_lanes<Axes>(motion.v), to_lanes<Axes>(motion.a));
 }
 
 template <int Axes, Real Scalar>
 [[nodiscard]] bool is_finite(const ToolState<Axes, Scalar>& state) noexcept {
-  const Scalar none{0};
-  return (state.x * none + state.v * none + state.a * none + state.force * none).sum() == none;
+  return are_finite(to_lanes<Axes>(state.x), to_lanes<Axes>(state.v), to_lanes<Axes>(state.a),
+                    to_lanes<Axes>(state.force));
 }
 
 }  // namespace limpid

@@ -25,7 +25,7 @@ struct SamplingBlock {
 
   DelayedSampled<ToolState<Axes, Scalar>, Capacity> component;
 
-  Held<ToolState<Axes, Scalar>> operator()(Time now, const ToolState<Axes, Scalar>& tool) noexcept {
+  const Held<ToolState<Axes, Scalar>>& operator()(Time now, const ToolState<Axes, Scalar>& tool) noexcept {
     return component.update(now, tool);
   }
 };

@@ -53,13 +53,13 @@ class DelayedSampled {
     held_.status = Status::no_sample;
   }
 
-  /// What is seen at `now`; takes a sample of `value` if one is due.
+  /// What is seen at `now`; takes a sample of `value` if one is due. The answer changes with the next call.
   /// @return status  `no_sample` before the first arrival; `not_finite`: a due sample was lost;
   ///                 `clock_backwards`: `now` is not after the last tick, nothing changed;
   ///                 `out_of_order`: an arrival was not newer than what is held;
   ///                 `stale`: samples were lost, and what is held is older than `longest_age`
-  [[nodiscard]] Held<T> update(Time now, const T& value) noexcept {
-    if (started_ && now <= now_) return held_with(Status::clock_backwards);
+  [[nodiscard]] const Held<T>& update(Time now, const T& value) noexcept {
+    if (started_ && now <= now_) return seen(false, Status::clock_backwards);
     Status status = Status::ok;
     if (!started_ || now >= next_due_) {
       status = take(now, value);
@@ -70,8 +70,8 @@ class DelayedSampled {
 
   /// What is seen at `now`, when all samples come by `offer`.
   /// @return status  as above; `stale`: what is held is older than `longest_age`
-  [[nodiscard]] Held<T> update(Time now) noexcept {
-    if (started_ && now <= now_) return held_with(Status::clock_backwards);
+  [[nodiscard]] const Held<T>& update(Time now) noexcept {
+    if (started_ && now <= now_) return seen(false, Status::clock_backwards);
     return deliver(now, Status::ok, now);
   }
 
@@ -86,7 +86,7 @@ class DelayedSampled {
     for (std::size_t i = 0; i < count_; ++i) {
       if (slot(i).taken == sample.taken) return Status::out_of_order;
     }
-    return send(sample);
+    return send(sample.value, sample.taken, sample.arrived);
   }
 
  private:
@@ -100,7 +100,7 @@ class DelayedSampled {
     return delay > longest || period > (longest - delay) / periods ? longest : delay + period * periods;
   }
 
-  [[nodiscard]] bool arrived_any() const noexcept { return held_.status == Status::ok; }
+  [[nodiscard]] bool arrived_any() const noexcept { return any_; }
 
   // duration's own division rounds towards zero
   [[nodiscard]] Duration::rep floor_of_periods(Time t) const noexcept {
@@ -113,25 +113,28 @@ class DelayedSampled {
       lost_ = now;
       return Status::not_finite;
     }
-    return send({value, now, now + delay_});
+    return send(value, now, now + delay_);
   }
 
   // Keeps the ring in the order of arrival.
-  Status send(const Sample<T>& sample) noexcept {
+  Status send(const T& value, Time taken, Time arrived) noexcept {
     const bool full = count_ == slots;
     if (full) drop_front();
     std::size_t i = count_++;
-    for (; i > 0 && later(slot(i - 1), sample); --i) slot(i) = slot(i - 1);
-    slot(i) = sample;
+    for (; i > 0 && is_later(slot(i - 1), taken, arrived); --i) slot(i) = slot(i - 1);
+    Sample<T>& sample = slot(i);
+    sample.value = value;
+    sample.taken = taken;
+    sample.arrived = arrived;
     return when(full, Status::overflow);
   }
 
-  static bool later(const Sample<T>& a, const Sample<T>& b) noexcept {
-    return a.arrived > b.arrived || (a.arrived == b.arrived && a.taken > b.taken);
+  static bool is_later(const Sample<T>& a, Time taken, Time arrived) noexcept {
+    return a.arrived > arrived || (a.arrived == arrived && a.taken > taken);
   }
 
   // A sample taken at or after what is held, up to the instant `owed`, should have been there by now.
-  [[nodiscard]] Held<T> deliver(Time now, Status status, Time owed) noexcept {
+  [[nodiscard]] const Held<T>& deliver(Time now, Status status, Time owed) noexcept {
     if (!started_) first_tick_ = now;
     started_ = true;
     now_ = now;
@@ -145,19 +148,16 @@ class DelayedSampled {
       held_.value = sample.value;
       held_.taken = sample.taken;
       held_.arrived = sample.arrived;
-      held_.status = Status::ok;
-      fresh = true;
+      any_ = fresh = true;
     }
     const Time since = arrived_any() ? held_.taken : first_tick_;
-    Held<T> seen = held_with(status | when(since < now - longest_age_ && since <= owed, Status::stale));
-    seen.fresh = fresh;
-    return seen;
+    return seen(fresh, status | when(since < now - longest_age_ && since <= owed, Status::stale));
   }
 
-  [[nodiscard]] Held<T> held_with(Status status) const noexcept {
-    Held<T> seen = held_;
-    seen.status |= status;
-    return seen;
+  [[nodiscard]] const Held<T>& seen(bool fresh, Status status) noexcept {
+    held_.fresh = fresh;
+    held_.status = status | when(!any_, Status::no_sample);
+    return held_;
   }
 
   Sample<T>& slot(std::size_t i) noexcept {
@@ -173,8 +173,8 @@ class DelayedSampled {
   Duration period_;
   Duration delay_;
   Duration longest_age_;
-  Held<T> held_;  // never fresh; status no_sample or ok
-  bool started_ = false;
+  Held<T> held_;  // as last seen
+  bool started_ = false, any_ = false;
   Time first_tick_{}, now_{};  // and the last tick
   Time next_due_{};            // of the next sample
   Time lost_ = Time::min();    // the last due sample that was not finite

@@ -15,7 +15,7 @@ namespace limpid {
 /// The last `Capacity` values of a signal and their instants; between two of them, the straight line.
 /// @tparam T         +, - and * by its scalar, which is T::Scalar where there is one and else T itself; `is_finite(T)`
 /// @tparam Capacity  entries kept: a power of two, so that an index wraps by a mask
-/// @realtime         no allocation, no throw; `push` O(1), `at` log2(Capacity) comparisons
+/// @realtime         no allocation, no throw; `push` O(1), `at` twice log2 of the entry's age in entries
 template <typename T, std::size_t Capacity = 512>
 class History {
   static_assert(Capacity >= 2 && (Capacity & (Capacity - 1)) == 0, "History: Capacity is a power of two, at least 2");
@@ -31,6 +31,12 @@ class History {
   [[nodiscard]] Status push(Time t, const T& value) noexcept {
     if (count_ > 0 && t <= time(count_ - 1)) return Status::clock_backwards;
     if (!is_finite(value)) return Status::not_finite;
+    append(t, value);
+    return Status::ok;
+  }
+
+  /// The same for a value that is known to be finite, at an instant known to be after the newest.
+  void append(Time t, const T& value) noexcept {
     const std::size_t at = (first_ + count_) & mask;
     times_[at] = t;
     values_[at] = value;
@@ -39,7 +45,6 @@ class History {
     } else {
       first_ = (first_ + 1) & mask;
     }
-    return Status::ok;
   }
 
   /// The value at `t`: the entry itself where there is one, else between its neighbours.
@@ -78,9 +83,15 @@ class History {
   [[nodiscard]] const Time& time(std::size_t i) const noexcept { return times_[(first_ + i) & mask]; }
   [[nodiscard]] const T& value(std::size_t i) const noexcept { return values_[(first_ + i) & mask]; }
 
-  // Index of the first entry at or after t, count_ where there is none.
+  // Index of the first entry at or after t, count_ where there is none. From the newest back in growing steps: what is
+  // asked for is mostly young.
   [[nodiscard]] std::size_t first_not_before(Time t) const noexcept {
-    std::size_t low = 0, high = count_;
+    std::size_t low = count_, high = count_, back = 1;
+    while (low > 0 && !(time(low - 1) < t)) {
+      high = low - 1;
+      low = high > back ? high - back : 0;
+      back *= 2;
+    }
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
       if (time(middle) < t) {
