@@ -126,7 +126,12 @@ class LeastSquares {
   using Theta = Eigen::Array<Scalar, Axes, 2>;
 
   LeastSquares(const Theta& initial, const Theta& gain, const Theta& bound, const Scalar& alpha, const Scalar& nu)
-      : alpha_{alpha}, nu_{nu}, bound_{columns(bound)}, theta_{columns(initial)}, Gamma_{columns(gain)} {}
+      : alpha_{alpha},
+        nu_{nu},
+        flow_{alpha, nu},
+        bound_{columns(bound)},
+        theta_{columns(initial)},
+        Gamma_{columns(gain)} {}
 
   void update(const Scalar& dt, const Theta& phi_of_axes, const Vector& F_of_axes) noexcept {
     const Columns phi = columns(phi_of_axes);
@@ -160,11 +165,12 @@ class LeastSquares {
 
   [[nodiscard]] Array information(const typename Flow::Forgetting& forgetting, const Scalar& dt,
                                   const Array& s) const noexcept {
-    if constexpr (gathering == Gathering::exact) return Flow::information(forgetting, dt, nu_, s);
+    if constexpr (gathering == Gathering::exact) return flow_.information(forgetting, dt, s);
     return dt * (Scalar{1} + nu_ * s).inverse();
   }
 
   Scalar alpha_, nu_;
+  Flow flow_;
   Columns bound_, theta_;
   Form<Array> Gamma_;
 };

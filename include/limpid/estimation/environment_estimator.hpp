@@ -44,7 +44,7 @@ class EnvironmentEstimator {
   [[nodiscard]] Status update(Time now, const Held<ToolState<axes, Scalar>>& sample) noexcept {
     if (started_ && now <= now_) return Status::clock_backwards;
     Status status = Status::ok;
-    if (sampled_) status |= law_.update(in_seconds<Scalar>(elapsed(now, now_)), phi_, F_);
+    if (sampled_) status |= law_.update(in_seconds<Scalar>(elapsed(now, now_)), held_);
     started_ = true;
     now_ = now;
     if (has(sample.status, Status::no_sample)) return status | when(!sampled_, Status::no_sample);
@@ -64,16 +64,17 @@ class EnvironmentEstimator {
     const auto& [x, v, a, force] = sample.value;
     EnvironmentTheta<Env> phi = Traits::regressor(environment_, x, v);
     EnvironmentVector<Env> F = force - Traits::force(environment_, EnvironmentTheta<Env>::Zero(), x, v);
-    if (!is_finite(phi) || !is_finite(F)) return Status::not_finite;
+    typename Law::Held held(phi, F);
+    if (!held.is_finite()) return Status::not_finite;
     if constexpr (!Traits::bilateral) {
       for (int axis = 0; axis < axes; ++axis) {
         if (force[axis] > Scalar{0}) continue;
         phi.row(axis).setZero();
         F[axis] = Scalar{0};
       }
+      held = typename Law::Held(phi, F);
     }
-    phi_ = phi;
-    F_ = F;
+    held_ = held;
     taken_ = sample.taken;
     sampled_ = true;
     return Status::ok;
@@ -81,8 +82,7 @@ class EnvironmentEstimator {
 
   Env environment_;
   Law law_;
-  EnvironmentTheta<Env> phi_ = EnvironmentTheta<Env>::Zero();  // phi_e,zd
-  EnvironmentVector<Env> F_ = EnvironmentVector<Env>::Zero();  // F_e,zd less its known part
+  typename Law::Held held_{EnvironmentTheta<Env>::Zero(), EnvironmentVector<Env>::Zero()};  // phi_e,zd and F_e,zd
   bool started_ = false, sampled_ = false;
   Time now_{}, taken_{};
 };

@@ -3,6 +3,7 @@
 
 #include <limpid/estimation/any_above.hpp>
 #include <limpid/estimation/exponential_mean.hpp>
+#include <limpid/estimation/information_series.hpp>
 
 #include <Eigen/Core>
 
@@ -20,27 +21,44 @@ namespace limpid {
 ///
 ///     (exp(l) - exp(p l)) / (1 - p) + nu s (exp(p l) - 1) / p = s (T - 1) / alpha
 ///
-/// The left side grows and is convex in l, so that Newton's iteration from above falls onto the root. It runs on the
-/// ratio of l to its bound z = s (T - 1) / (alpha (1 + nu s)), which is 1 at s = 0: no case is apart.
+/// For small z = s (T - 1) / (alpha (1 + nu s)) the solution is a series in z. Else: the left side grows and is convex
+/// in l, so that Newton's iteration from above falls onto the root. It runs on the ratio of l to its bound z, which is
+/// 1 at s = 0: no case is apart.
 template <typename Array>
-struct LeastSquaresFlow {
+class LeastSquaresFlow {
+ public:
   using Scalar = typename Array::Scalar;
+
+  /// @param alpha  forgetting, 1/s, >= 0
+  /// @param nu     normalisation, s, >= 0, with alpha nu < 1
+  LeastSquaresFlow(const Scalar& alpha, const Scalar& nu) noexcept : nu_{nu}, series_{Scalar(alpha * nu)} {}
 
   /// Forgetting over a step, by lanes.
   struct Forgetting {
     Array exponent;                                                                      ///< alpha t, >= 0
     Array mean;                                                                          ///< of exp over [0, alpha t]
+    bool whole = true;                                                                   ///< alpha as constructed
     [[nodiscard]] Array growth() const noexcept { return Scalar{1} + exponent * mean; }  ///< T
   };
 
   /// Information u, s, gathered along phi over a step.
   /// @param t   length of the step, s, > 0
-  /// @param nu  normalisation, s, >= 0, with alpha nu < 1
   /// @param s   phi' Gamma phi, 1/s, >= 0
-  [[nodiscard]] static Array information(const Forgetting& forgetting, const Scalar& t, const Scalar& nu,
-                                         const Array& s) noexcept {
-    const Array tau = forgetting.mean * t;  // (T - 1) / alpha
-    const Array p = forgetting.exponent * (nu / t), w = Scalar{1} + nu * s;
+  [[nodiscard]] Array information(const Forgetting& forgetting, const Scalar& t, const Array& s) const noexcept {
+    const Array tau = forgetting.mean * t, reach = s * tau;  // (T - 1) / alpha
+    const Array inverse = (Scalar{1} + nu_ * s).inverse();
+    const Array z = reach * inverse;
+    if constexpr (InformationSeries<Array>::exists) {
+      if (forgetting.whole && !any_above(z, series_.most())) [[likely]]
+        return (tau * inverse) * series_(z, inverse);
+    }
+    return iterated(forgetting, t, s);
+  }
+
+  /// The same by Newton's iteration, whatever z.
+  [[nodiscard]] Array iterated(const Forgetting& forgetting, const Scalar& t, const Array& s) const noexcept {
+    const Array tau = forgetting.mean * t;
+    const Array p = forgetting.exponent * (nu_ / t), w = Scalar{1} + nu_ * s;
     const Array inverse = w.inverse();
     const Array z = s * tau * inverse;
     const Equation equation{p, w, z};
@@ -106,6 +124,9 @@ struct LeastSquaresFlow {
       return whole;
     }
   };
+
+  Scalar nu_;
+  InformationSeries<Array> series_;
 };
 
 }  // namespace limpid

@@ -69,16 +69,34 @@ class ProjectionRLS {
       : lower_{columns(settings.lower)},
         upper_{columns(settings.upper)},
         alpha_{settings.forgetting},
-        nu_{settings.normalisation},
         rho_M_{settings.gain_limit},
+        flow_{alpha_, settings.normalisation},
         state_{columns(checked(settings).initial), Factorised{columns(settings.initial_gain)}} {}
+
+  /// phi and F with the axes side by side, for a law that runs more than once with the same.
+  class Held {
+   public:
+    /// @param phi  regressor phi_e,zd; row: axis
+    /// @param F    measured force less its known part, N
+    Held(const Regressor& phi, const Vector& F) noexcept : phi_{to_lane_columns<Axes>(phi)}, F_{to_lanes<Axes>(F)} {}
+
+    [[nodiscard]] bool is_finite() const noexcept { return finite(phi_, F_); }
+
+   private:
+    friend ProjectionRLS;
+    std::array<Lanes<Axes, Scalar>, N> phi_;
+    Lanes<Axes, Scalar> F_;
+  };
 
   /// The law over `dt` seconds with `phi` and `F` held.
   /// @param phi  regressor phi_e,zd; row: axis
   /// @param F    measured force less its known part, N
   /// @return     not_finite or clock_backwards: nothing changed; at_bound: the box held a parameter
   [[nodiscard]] Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
-    return flat<Scalar>([&]() noexcept { return updated(dt, phi, F); });
+    return update(dt, Held(phi, F));
+  }
+  [[nodiscard]] Status update(const Scalar& dt, const Held& held) noexcept {
+    return flat<Scalar>([&]() noexcept { return updated(dt, held.phi_, held.F_); });
   }
 
   /// theta_hat, always inside the box.
@@ -107,20 +125,15 @@ class ProjectionRLS {
 
   static const Array& column(const Columns& columns, int j) { return columns[static_cast<std::size_t>(j)]; }
 
-  static Columns columns(const Theta& values) noexcept {
-    Columns columns;
-    for (int j = 0; j < N; ++j) columns[static_cast<std::size_t>(j)] = to_lanes<Axes>(values.col(j));
-    return columns;
-  }
+  static Columns columns(const Theta& values) noexcept { return to_lane_columns<Axes>(values); }
 
-  [[nodiscard]] Status updated(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
-    const Columns columns_of_phi = columns(phi);
-    const Array lanes_of_F = to_lanes<Axes>(F);
-    if (!is_finite(dt) || !finite(columns_of_phi, lanes_of_F)) return Status::not_finite;
+  [[nodiscard]] Status updated(const Scalar& dt, const Columns& phi, const Array& F) noexcept {
+    if (!is_finite(dt) || !finite(phi, F)) return Status::not_finite;
     if (!(dt > Scalar{0})) return Status::clock_backwards;
+    if (dt != dt_) set_step(dt);
     State next;
     next = state_;  // assigned, not constructed: by whole packets
-    flow(next, dt, columns_of_phi, lanes_of_F);
+    flow(next, dt, phi, F);
     const Status bound = project(next);
     if (!finite(next.theta, next.Gamma.sum())) return Status::not_finite;  // phi or F too large to be squared
     state_ = next;
@@ -153,33 +166,40 @@ class ProjectionRLS {
   }
 
   void flow(State& next, const Scalar& dt, const Columns& phi, const Array& F) const noexcept {
-    const auto forgetting = forgetting_over(dt);
+    typename Flow::Forgetting less;
+    const auto& forgetting = windup(less) ? less : forgetting_;
     const auto seen = next.Gamma.along(phi);
     Array epsilon = -F;
     for (std::size_t j = 0; j < phi.size(); ++j) epsilon += phi[j] * next.theta[j];
-    const Columns K = next.Gamma.downdate(seen, Flow::information(forgetting, dt, nu_, seen.s));
+    const Columns K = next.Gamma.downdate(seen, flow_.information(forgetting, dt, seen.s));
     next.Gamma.scale(forgetting.growth());
     for (std::size_t j = 0; j < phi.size(); ++j) next.theta[j] -= K[j] * epsilon;
   }
 
   // alpha dt, less where Gamma would grow past rho_M.
-  typename Flow::Forgetting forgetting_over(const Scalar& dt) const noexcept {
-    const Array exponent = Array::Constant(alpha_ * dt);
-    const typename Flow::Forgetting forgetting{exponent, exponential_mean(exponent)};
-    const Array bound = forgetting.growth() * state_.Gamma.trace();  // >= T lambda_max
-    if (any_above(bound, rho_M_)) [[unlikely]]
-      return less_forgetting(exponent, bound);
-    return forgetting;
+  bool windup(typename Flow::Forgetting& less) const noexcept {
+    const Array bound = forgetting_.growth() * state_.Gamma.trace();  // >= T lambda_max
+    if (!any_above(bound, rho_M_)) [[likely]]
+      return false;
+    forget_less(bound, less);
+    return true;
   }
 
-  [[gnu::noinline]] typename Flow::Forgetting less_forgetting(Array exponent, const Array& bound) const noexcept {
+  void set_step(const Scalar& dt) noexcept {
+    dt_ = dt;
+    forgetting_.exponent = Array::Constant(alpha_ * dt);
+    forgetting_.mean = exponential_mean(forgetting_.exponent);
+  }
+
+  [[gnu::noinline]] void forget_less(const Array& bound, typename Flow::Forgetting& less) const noexcept {
     using std::log;
+    Array exponent = forgetting_.exponent;
     for (int lane = 0; lane < lanes; ++lane) {
       if (!(bound[lane] > rho_M_)) continue;
       const Scalar room = log(rho_M_ / state_.Gamma.largest_eigenvalue(lane));
       exponent[lane] = std::clamp(room, Scalar{0}, exponent[lane]);
     }
-    return {exponent, exponential_mean(exponent)};
+    less = {exponent, exponential_mean(exponent), false};
   }
 
   Status project(State& next) const noexcept {
@@ -208,7 +228,10 @@ class ProjectionRLS {
   }
 
   Columns lower_, upper_;
-  Scalar alpha_, nu_, rho_M_;
+  Scalar alpha_, rho_M_;
+  Scalar dt_{0};                          // of the last step, for which forgetting_ is set
+  typename Flow::Forgetting forgetting_;  // alpha dt
+  Flow flow_;
   State state_;
 };
 
