@@ -4,6 +4,7 @@
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/flat.hpp>
+#include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
 #include <limpid/core/status.hpp>
@@ -12,11 +13,13 @@
 #include <limpid/environment/tool.hpp>
 #include <limpid/estimation/environment_estimate.hpp>
 #include <limpid/prediction/gains.hpp>
+#include <limpid/prediction/lane_motion.hpp>
 #include <limpid/prediction/predictor.hpp>
 #include <limpid/signal/history.hpp>
 #include <limpid/signal/intersample.hpp>
 #include <limpid/signal/sample.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <limits>
@@ -85,21 +88,25 @@ class ModelPredictor {
   /// @throws std::invalid_argument  where the tool, the gain or a field is refused
   explicit ModelPredictor(const Settings& settings)
       : environment_{settings.environment},
-        tool_{settings.tool},
         gain_{settings.gain},
         intersample_{settings.intersample},
         theta_{settings.theta},
+        next_theta_{settings.theta},
         motion_{settings.start},
         start_{settings.start} {
-    tool_.check();
+    const ToolModel& tool = settings.tool;
+    tool.check();
     gain_.check();
     expect(is_finite(theta_), "ModelPredictor: theta", "finite", theta_);
-    expect(is_finite(motion_), "ModelPredictor: start", "finite", "a motion that is not");
+    expect(is_finite(settings.start), "ModelPredictor: start", "finite", "a motion that is not");
     expect(moderate(motion_), "ModelPredictor: start", "finite squares", "a motion that is too large");
-    motion_.a.setZero();
+    per_mass_ = Scalar{1} / tool.mass;
+    expect(is_finite(per_mass_), "ModelPredictor: tool.mass", "a finite 1/mass", tool.mass);
+    own_ = {Array::Constant(tool.stiffness * per_mass_), Array::Constant(tool.damping * per_mass_),
+            to_lanes<axes>(Vector(tool.anchor * (tool.stiffness * per_mass_)))};
+    if constexpr (exact) probe_parameters();
     model_ = model_of(theta_, motion_);
     expect(moderate(model_), "ModelPredictor: theta", "a finite stiffness and damping over the tool's mass", theta_);
-    next_theta_ = theta_;
     next_model_ = model_;
   }
 
@@ -107,11 +114,14 @@ class ModelPredictor {
   /// @return  not_finite: it is not, or its stiffness or damping over the tool's mass is not; the one before stays
   [[nodiscard]] Status use(const EnvironmentEstimate<axes, parameters, Scalar>& estimate) noexcept requires
       std::same_as<Parameters, Estimated> {
-    if ((estimate.theta_hat == next_theta_).all()) return Status::ok;
-    if (!((estimate.theta_hat * Scalar{0}).sum() == Scalar{0})) return Status::not_finite;
+    if constexpr (!exact) {
+      if ((estimate.theta_hat == next_theta_).all()) return Status::ok;
+      if (!is_finite(estimate.theta_hat)) return Status::not_finite;
+    }
     const Model model = model_of(estimate.theta_hat, motion_);
+    if (exact && same(model, next_model_)) return Status::ok;
     if (!moderate(model)) return Status::not_finite;
-    next_theta_ = estimate.theta_hat;
+    if constexpr (needs_theta) next_theta_ = estimate.theta_hat;
     next_model_ = model;
     estimated_ = true;
     return Status::ok;
@@ -122,7 +132,7 @@ class ModelPredictor {
   [[nodiscard]] Status replace_gain(const Gain& gain) noexcept requires(!Gain::scheduled) {
     const auto& L = gain.row();
     if (!is_finite(L.L1) || !is_finite(L.L2)) return Status::not_finite;
-    if (!is_finite(Vector(L(error_.x, error_.v) / tool_.mass))) return Status::not_finite;
+    if (!are_finite(feedback_of(gain, error_))) return Status::not_finite;
     gain_ = gain;  // `advance` asks for it only after its step
     return Status::ok;
   }
@@ -133,7 +143,7 @@ class ModelPredictor {
     if (!is_finite(sample.value)) return Status::not_finite;
     if (sample.taken > sample.arrived) return Status::clock_backwards;
     if (newest_.seen(sample.taken)) return Status::out_of_order;
-    observation_ = {sample.value.x, sample.value.v, sample.value.a};
+    observation_ = State(sample.value);
     newest_.observe(sample.taken);
     return Status::ok;
   }
@@ -141,69 +151,114 @@ class ModelPredictor {
   /// The tool at `now`.
   /// @param F_h  operator's force at `now`, N
   [[nodiscard]] Prediction<axes, Scalar> advance(Time now, const Vector& F_h) noexcept {
-    return flat<Scalar>([&]() noexcept { return advanced(now, F_h); });
+    return flat<Scalar>([&]() noexcept { return advanced(now, to_lanes<axes>(F_h)); });
   }
 
  private:
-  [[nodiscard]] Prediction<axes, Scalar> advanced(Time now, const Vector& F_h) noexcept {
-    if (!is_finite(Vector((F_h / tool_.mass).square()))) return {motion_, Status::not_finite};
-    if (started_ && now <= now_) return {motion_, Status::clock_backwards};
-    const Scalar dt = started_ ? in_seconds<Scalar>(elapsed(now, now_)) : Scalar{0};
-    Motion<axes, Scalar> next = motion_;
-    Status status = Status::ok;
-    if (started_) {
-      step(next, dt, F_h);
-      if (!moderate(next)) [[unlikely]] {
-        next = motion_;
-        error_ = {};
-        status = Status::not_finite;
-      }
-    } else {
-      begin_ = now;
-      started_ = true;
-    }
-    now_ = now;
-    F_h_ = F_h;
-    status |= history_.push(now, next);
-    take_over_estimate();
-    if constexpr (Gain::scheduled) status |= schedule(dt, next);
-    status |= take_over_sample();
-    feedback_ = gain_.row()(error_.x, error_.v);
-    next.a = acceleration(next.x, next.v);
-    if (!is_finite(next.a)) [[unlikely]] {
-      next.a = motion_.a;
-      error_ = {};
-      feedback_.setZero();
-      status |= Status::not_finite;
-    }
-    motion_ = next;
-    return {motion_, status | when(!newest_.any(), Status::no_sample)};
-  }
+  using Array = Lanes<axes, Scalar>;
+  using State = detail::LaneMotion<axes, Scalar>;
 
   static constexpr bool exact = LinearEnvironment<Env> && DecoupledEnvironment<Env>;
 
-  // The coefficients of x'' + beta x' + kappa x = (F_h + L e) / m + constant.
+  // Else the model says it all.
+  static constexpr bool needs_theta = !exact || Gain::scheduled;
+
+  // The coefficients of x'' + beta x' + kappa x = (F_h + L e) / m + constant; about a point, where the environment is
+  // not linear.
   struct Model {
-    Vector kappa, beta, constant;
+    Array kappa, beta, constant;
   };
 
-  // Everywhere, or, where the environment is not linear, as the start of a step at `at` sees it.
-  [[nodiscard]] Model model_of(const Theta& theta, const Motion<axes, Scalar>& at) const noexcept {
-    const Vector x = exact ? Vector(Vector::Zero()) : at.x, v = exact ? Vector(Vector::Zero()) : at.v;
-    const auto tangent = Traits::tangent(environment_, theta, x, v);
-    return {(tangent.stiffness + tool_.stiffness) / tool_.mass, (tangent.damping + tool_.damping) / tool_.mass,
-            (tool_.stiffness * tool_.anchor - Traits::force(environment_, theta, x, v)) / tool_.mass};
+  [[nodiscard]] Prediction<axes, Scalar> advanced(Time now, const Array& F_h) noexcept {
+    const Array pushed = F_h * per_mass_;
+    if (started_ && now <= now_) [[unlikely]]
+      return untouched(are_finite(pushed * pushed) ? Status::clock_backwards : Status::not_finite);
+    const Scalar dt = started_ ? in_seconds<Scalar>(elapsed(now, now_)) : Scalar{0};
+    State next = motion_;
+    if (started_) step(next, dt, pushed);
+    Status status = Status::ok;
+    if (!are_finite(next.x * next.x, next.v * next.v, pushed * pushed)) [[unlikely]] {
+      if (!are_finite(pushed * pushed)) return untouched(Status::not_finite);
+      next = motion_;
+      error_ = {};
+      status = Status::not_finite;
+    }
+    if (!started_) begin_ = now;
+    started_ = true;
+    now_ = now;
+    pushed_ = pushed;
+    history_.append(now, next);
+    take_over_estimate();
+    if constexpr (!exact) look_around(next);
+    if constexpr (Gain::scheduled) status |= schedule(dt, next);
+    status |= take_over_sample();
+    fed_back_ = feedback_of(gain_, error_);
+    Array a = acceleration(next);
+    if (!are_finite(a)) [[unlikely]] {
+      a = acceleration_;
+      error_ = {};
+      fed_back_.setZero();
+      status |= Status::not_finite;
+    }
+    motion_ = next;
+    acceleration_ = a;
+    return {next.with(a), status | when(!newest_.any(), Status::no_sample)};
   }
 
-  // Whether the squares are finite: then so are the products and sums that follow from moderate values. One test for
-  // all entries: zero times a finite number is zero, times any other it is NaN.
-  static bool moderate(const Motion<axes, Scalar>& motion) noexcept {
-    const Scalar none{0};
-    return ((motion.x * motion.x + motion.v * motion.v) * none).sum() == none;
+  [[nodiscard]] Prediction<axes, Scalar> untouched(Status status) const noexcept {
+    return {motion_.with(acceleration_), status};
   }
+
+  // The environment beside the tool; where it is not linear, about `at`.
+  [[nodiscard]] Model model_of(const Theta& theta, const State& at) const noexcept {
+    if constexpr (exact) {
+      const auto columns = to_lane_columns<axes>(theta);
+      Model model = at_zero_;
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        model.kappa += per_parameter_[j].kappa * columns[j];
+        model.beta += per_parameter_[j].beta * columns[j];
+        model.constant += per_parameter_[j].constant * columns[j];
+      }
+      return model;
+    } else {
+      const Model of_environment = environment_about(theta, from_lanes<axes>(at.x), from_lanes<axes>(at.v));
+      return {own_.kappa + of_environment.kappa, own_.beta + of_environment.beta,
+              own_.constant + of_environment.constant};
+    }
+  }
+
+  // Of the environment alone.
+  [[nodiscard]] Model environment_about(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
+    const auto [force, tangent] = response_of(environment_, theta, x, v);
+    const Vector rest = force - tangent.stiffness * x - tangent.damping * v;
+    return {to_lanes<axes>(tangent.stiffness) * per_mass_, to_lanes<axes>(tangent.damping) * per_mass_,
+            to_lanes<axes>(rest) * -per_mass_};
+  }
+
+  // Of an environment that is linear the model is affine in theta, and known by its values at zero and the unit thetas.
+  void probe_parameters() noexcept {
+    const Vector none = Vector::Zero();
+    const Model zero = environment_about(Theta::Zero(), none, none);
+    at_zero_ = {own_.kappa + zero.kappa, own_.beta + zero.beta, own_.constant + zero.constant};
+    for (int j = 0; j < parameters; ++j) {
+      Theta unit = Theta::Zero();
+      unit.col(j).setOnes();
+      const Model one = environment_about(unit, none, none);
+      per_parameter_[static_cast<std::size_t>(j)] = {one.kappa - zero.kappa, one.beta - zero.beta,
+                                                     one.constant - zero.constant};
+    }
+  }
+
+  // L e / m, m/s^2
+  [[nodiscard]] Array feedback_of(const Gain& gain, const State& error) const noexcept {
+    const auto& L = gain.row();
+    return (to_lanes<axes>(L.L1) * error.x + to_lanes<axes>(L.L2) * error.v) * per_mass_;
+  }
+
+  // Whether the squares are finite: then so are the products and sums that follow from moderate values.
+  static bool moderate(const State& s) noexcept { return are_finite(s.x * s.x, s.v * s.v); }
   static bool moderate(const Model& m) noexcept {
-    const Scalar none{0};
-    return ((m.kappa * m.kappa + m.beta * m.beta + m.constant * m.constant) * none).sum() == none;
+    return are_finite(m.kappa * m.kappa, m.beta * m.beta, m.constant * m.constant);
   }
 
   // theta_hat from now on.
@@ -211,15 +266,15 @@ class ModelPredictor {
     if constexpr (std::same_as<Parameters, Estimated>) {
       if (!estimated_) return;
       estimated_ = false;
-      theta_ = next_theta_;
+      if constexpr (needs_theta) theta_ = next_theta_;
       model_ = next_model_;
       h_ = Scalar{0};  // of no step
     }
   }
 
   // A tangent that is not finite would stay in the schedule for ever.
-  Status schedule(const Scalar& dt, const Motion<axes, Scalar>& at) noexcept {
-    const auto rho = Traits::tangent(environment_, theta_, at.x, at.v);
+  Status schedule(const Scalar& dt, const State& at) noexcept {
+    const auto rho = Traits::tangent(environment_, theta_, from_lanes<axes>(at.x), from_lanes<axes>(at.v));
     if (!is_finite(rho.stiffness) || !is_finite(rho.damping)) return Status::not_finite;
     return gain_.update(dt, rho);
   }
@@ -231,73 +286,79 @@ class ModelPredictor {
     const bool before = newest_.taken() < begin_;
     const auto [mine, status] = history_.at(newest_.taken());
     if (!before && status != Status::ok) return status;
-    const auto error = (before ? start_ : mine) - observation_;
-    if (!is_finite(Vector(gain_.row()(error.x, error.v) / tool_.mass))) return Status::not_finite;
+    const State error = (before ? start_ : mine) - observation_;
+    if (!are_finite(feedback_of(gain_, error))) return Status::not_finite;
     error_ = error;
     return Status::ok;
   }
 
-  void step(Motion<axes, Scalar>& to, const Scalar& dt, const Vector& F_h) noexcept {
-    const Vector f0 = (F_h_ + feedback_) / tool_.mass;
-    const Vector f1 = intersample_ == Intersample::linear ? Vector((F_h + feedback_) / tool_.mass) : f0;
+  // The tangent there, for the next step; where it is the one before, as in free space, so is the response.
+  void look_around(const State& at) noexcept {
+    const Model model = model_of(theta_, at);
+    if (!(((model.kappa - model_.kappa).abs() + (model.beta - model_.beta).abs()).sum() == Scalar{0}))
+      h_ = Scalar{0};  // of no step
+    model_ = model;
+  }
+  static bool same(const Model& a, const Model& b) noexcept {
+    return ((a.kappa - b.kappa).abs() + (a.beta - b.beta).abs() + (a.constant - b.constant).abs()).sum() == Scalar{0};
+  }
+
+  // From the last tick to the next one, dt seconds later, at whose end F_h / m is `pushed`.
+  void step(State& to, const Scalar& dt, const Array& pushed) noexcept {
+    const Array f0 = pushed_ + fed_back_ + model_.constant;
+    const Array f1 = intersample_ == Intersample::linear ? Array(pushed + fed_back_ + model_.constant) : f0;
+    if (dt != h_) {
+      response_.set_lanes(model_.kappa, model_.beta, dt);
+      h_ = dt;
+    }
     if constexpr (exact) {
-      if (dt != h_) {
-        response_.set(model_.kappa, model_.beta, dt);
-        h_ = dt;
-      }
-      response_.advance(to.x, to.v, f0 + model_.constant, f1 + model_.constant);
+      response_.advance_lanes(to.x, to.v, f0, f1);
     } else {
-      step_about_tangent(to, dt, f0, f1);
+      correct(to, f0, f1);
     }
   }
 
-  void step_about_tangent(Motion<axes, Scalar>& to, const Scalar& dt, const Vector& f0, const Vector& f1) noexcept {
-    const Vector x = to.x, v = to.v;
-    const auto tangent = Traits::tangent(environment_, theta_, x, v);
-    response_.set((tangent.stiffness + tool_.stiffness) / tool_.mass, (tangent.damping + tool_.damping) / tool_.mass,
-                  dt);
-    const auto remainder = [&](const Vector& at_x, const Vector& at_v) -> Vector {
-      const Vector F_e = Traits::force(environment_, theta_, at_x, at_v);
-      return (tool_.stiffness * tool_.anchor - F_e + tangent.stiffness * at_x + tangent.damping * at_v) / tool_.mass;
-    };
-    const Vector r0 = remainder(x, v);
-    response_.advance(to.x, to.v, f0 + r0, f1 + r0);
+  // The force beside its tangent at the start, taken as linear in time over the step.
+  void correct(State& to, const Array& f0, const Array& f1) noexcept {
+    const State from = to;
+    response_.advance_lanes(to.x, to.v, f0, f1);
     for (int correction = 0; correction < 2; ++correction) {
-      const Vector r1 = remainder(to.x, to.v);
-      to.x = x;
-      to.v = v;
-      response_.advance(to.x, to.v, f0 + r0, f1 + r1);
+      const Array F_e =
+          to_lanes<axes>(Vector(Traits::force(environment_, theta_, from_lanes<axes>(to.x), from_lanes<axes>(to.v))));
+      const Array rest =
+          own_.constant - F_e * per_mass_ + (model_.kappa - own_.kappa) * to.x + (model_.beta - own_.beta) * to.v;
+      to = from;
+      response_.advance_lanes(to.x, to.v, f0, f1 - model_.constant + rest);
     }
   }
 
-  [[nodiscard]] Vector acceleration(const Vector& x, const Vector& v) const noexcept {
-    if constexpr (exact) {
-      return (F_h_ + feedback_) / tool_.mass + model_.constant - model_.beta * v - model_.kappa * x;
-    } else {
-      return (F_h_ + feedback_ - Traits::force(environment_, theta_, x, v) - tool_.damping * v -
-              tool_.stiffness * (x - tool_.anchor)) /
-             tool_.mass;
-    }
+  [[nodiscard]] Array acceleration(const State& at) const noexcept {
+    return pushed_ + fed_back_ + model_.constant - model_.beta * at.v - model_.kappa * at.x;
   }
 
   Env environment_;
-  ToolModel tool_;
   Gain gain_;
   Intersample intersample_;
-  Theta theta_, next_theta_;          // held; of the newest estimate
-  Motion<axes, Scalar> motion_;       // at the last tick
-  Motion<axes, Scalar> start_;        // and before the first one
-  Motion<axes, Scalar> error_{};      // e_zd
-  Vector feedback_ = Vector::Zero();  // L e_zd, N
-  Vector F_h_ = Vector::Zero();       // at the last tick, N
-  Model model_, next_model_;          // of theta_, of next_theta_
-  Scalar h_{0};                       // dt that response_ is set for
+  Scalar per_mass_{};  // 1/kg
+  Model own_;          // the tool alone
+  // where exact: the model of theta = 0, and what each parameter adds
+  Model at_zero_;
+  std::array<Model, exact ? std::size_t{parameters} : 0> per_parameter_;
+  Theta theta_, next_theta_;            // held; of the newest estimate
+  Model model_, next_model_;            // of theta_, of next_theta_
+  State motion_;                        // at the last tick
+  Array acceleration_ = Array::Zero();  // and there, m/s^2
+  State start_;                         // before the first tick
+  State error_{};                       // e_zd
+  Array fed_back_ = Array::Zero();      // L e_zd / m_t, m/s^2
+  Array pushed_ = Array::Zero();        // F_h / m_t at the last tick, m/s^2
+  Scalar h_{0};                         // dt that response_ is set for
   SecondOrderStep<axes, Scalar> response_;
-  Motion<axes, Scalar> observation_{};  // the newest sample's
+  State observation_{};  // the newest sample's
   SampleStamps newest_;
   bool started_ = false, estimated_ = false;
   Time begin_{}, now_{};  // the first tick and the last
-  History<Motion<axes, Scalar>, Capacity> history_;
+  History<State, Capacity> history_;
 };
 
 }  // namespace limpid
