@@ -3,6 +3,7 @@
 
 #include <limpid/control/tracking_law.hpp>
 #include <limpid/core/flat.hpp>
+#include <limpid/core/lanes.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
 
@@ -58,17 +59,18 @@ class SlotineLiAdaptive {
   explicit SlotineLiAdaptive(const Settings& settings)
       : robot_{settings.robot},
         law_{settings.Lambda, settings.Kd},
-        Gamma_{settings.Gamma},
-        lower_{settings.lower},
-        upper_{settings.upper},
+        Gamma_{to_packed_lanes(settings.Gamma)},
+        lower_{to_packed_lanes(settings.lower)},
+        upper_{to_packed_lanes(settings.upper)},
         longest_step_{settings.longest_step},
-        theta_hat_{settings.theta0} {
+        theta_hat_{to_packed_lanes(settings.theta0)} {
     law_.check("SlotineLiAdaptive");
-    expect(is_finite(Gamma_) && (Gamma_.array() >= Scalar(0)).all(), "SlotineLiAdaptive: Gamma", "finite and >= 0",
-           Gamma_);
-    expect(is_finite(theta_hat_), "SlotineLiAdaptive: theta0", "finite", theta_hat_);
-    expect((lower_.array() <= theta_hat_.array()).all(), "SlotineLiAdaptive: lower", "<= theta0", lower_);
-    expect((upper_.array() >= theta_hat_.array()).all(), "SlotineLiAdaptive: upper", ">= theta0", upper_);
+    const auto &Gamma = settings.Gamma, &theta0 = settings.theta0, &lower = settings.lower, &upper = settings.upper;
+    expect(is_finite(Gamma) && (Gamma.array() >= Scalar(0)).all(), "SlotineLiAdaptive: Gamma", "finite and >= 0",
+           Gamma);
+    expect(is_finite(theta0), "SlotineLiAdaptive: theta0", "finite", theta0);
+    expect((lower.array() <= theta0.array()).all(), "SlotineLiAdaptive: lower", "<= theta0", lower);
+    expect((upper.array() >= theta0.array()).all(), "SlotineLiAdaptive: upper", ">= theta0", upper);
     expect(longest_step_ > Duration::zero(), "SlotineLiAdaptive: longest_step", "> 0 s", longest_step_);
   }
 
@@ -79,46 +81,57 @@ class SlotineLiAdaptive {
   [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
                               const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h,
                               const Joints& applied) noexcept {
-    return flat<Scalar>([&]() noexcept { return adapted(now, is, wanted, F_h, applied); });
+    return flat<Scalar>([&]() noexcept {
+      return adapted(now, is, wanted, F_h, {is_finite(applied), (applied.array() == tau_.array()).all()});
+    });
   }
 
   /// The same for a device that always has the torque that it is asked for.
   [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
                               const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h) noexcept {
-    return update(now, is, wanted, F_h, Joints(tau_));
+    return flat<Scalar>([&]() noexcept { return adapted(now, is, wanted, F_h, {true, true}); });
   }
 
-  [[nodiscard]] const Parameters& theta_hat() const noexcept { return theta_hat_; }
+  [[nodiscard]] Parameters theta_hat() const noexcept { return of(theta_hat_); }
 
  private:
+  using Array = PackedLanes<RobotTraits<R>::parameters, Scalar>;
+
+  // What is said of the torque that the device had.
+  struct Applied {
+    bool finite, obeyed;
+  };
+
   [[nodiscard]] Output adapted(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
                                const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h,
-                               const Joints& applied) noexcept {
+                               const Applied& applied) noexcept {
     if (started_ && now <= last_) return {tau_, Status::clock_backwards};
-    obeyed_ = obeyed_ && (applied.array() == tau_.array()).all();
+    obeyed_ = obeyed_ && applied.obeyed;
     const auto pose = RobotTraits<R>::at(robot_, is.q);
     const auto reference = law_.reference(is, wanted);
-    const Parameters direction = pose.adaptation_direction(is.qdot, reference.qdot, reference.qddot, reference.delta);
+    const Array direction =
+        to_packed_lanes(pose.adaptation_direction(is.qdot, reference.qdot, reference.qddot, reference.delta));
     const Scalar power = reference.delta.dot(law_.Kd.cwiseProduct(reference.delta));
     const Scalar half_step = adapts(now) ? in_seconds<Scalar>(elapsed(now, last_)) / Scalar(2) : Scalar(0);
-    const Parameters twice_mean = direction + direction_, slope = Gamma_.cwiseProduct(twice_mean);
+    const Array twice_mean = direction + direction_, slope = Gamma_ * twice_mean;
     // both per half_step; an overflow is no step either
-    const bool sound = half_step * twice_mean.dot(slope) <= Scalar(2) * (power + power_) && is_finite(power);
-    const Parameters step = half_step * slope;
-    const Parameters moved = sound ? Parameters(theta_hat_ - step) : theta_hat_;
-    const Parameters theta_hat = moved.cwiseMax(lower_).cwiseMin(upper_);
-    const Joints tau = law_.torque(pose, theta_hat, is.qdot, reference, F_h);
+    const bool sound = half_step * (twice_mean * slope).sum() <= Scalar(2) * (power + power_) && is_finite(power);
+    const Array step = half_step * slope, moved = theta_hat_ - (sound ? step : Array(Array::Zero()));
+    const Array kept = moved.max(lower_).min(upper_);
+    const Joints tau = law_.torque(pose, of(kept), is.qdot, reference, F_h);
     // a non-finite input reaches tau or the step, whatever the gains: RobotPose's law
-    if (!is_finite(tau) || !is_finite(step) || !is_finite(applied)) return {tau_, Status::not_finite};
+    if (!is_finite(tau) || !are_finite(step) || !applied.finite) return {tau_, Status::not_finite};
     started_ = true;
     obeyed_ = true;
     last_ = now;
     direction_ = direction;
     power_ = power;
-    theta_hat_ = theta_hat;
+    theta_hat_ = kept;
     tau_ = tau;
-    return {tau_, when(!sound || (moved.array() != theta_hat.array()).any(), Status::at_bound)};
+    return {tau_, when(!sound || (moved - kept).abs().sum() > Scalar(0), Status::at_bound)};
   }
+
+  static Parameters of(const Array& theta) noexcept { return theta.template head<RobotTraits<R>::parameters>(); }
 
   [[nodiscard]] bool adapts(Time now) const noexcept {
     return started_ && obeyed_ && elapsed(now, last_) <= longest_step_;
@@ -126,12 +139,12 @@ class SlotineLiAdaptive {
 
   R robot_;
   TrackingLaw<R> law_;
-  Parameters Gamma_, lower_, upper_;
+  Array Gamma_, lower_, upper_;
   Duration longest_step_;
-  Parameters theta_hat_;
-  Parameters direction_ = Parameters::Zero();  // phi_r' delta at the last call
-  Scalar power_{0};                            // delta' K_d delta then, W
-  Joints tau_ = Joints::Zero();                // last good torque
+  Array theta_hat_;
+  Array direction_ = Array::Zero();  // phi_r' delta at the last call
+  Scalar power_{0};                  // delta' K_d delta then, W
+  Joints tau_ = Joints::Zero();      // last good torque
   Time last_{};
   bool started_ = false;
   bool obeyed_ = true;  // whether the device had tau_ since then, as far as is known

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <concepts>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -59,7 +60,19 @@ struct TrackingLaw {
   /// @param F_h  operator's force on the tip, N, base frame
   [[nodiscard]] Joints torque(const PoseOf<R>& pose, const RobotParameters<R>& theta, const Joints& qdot,
                               const Reference& r, const Force& F_h) const noexcept {
-    return pose.torque(theta, qdot, r.qdot, r.qddot) - Kd.cwiseProduct(r.delta) - pose.jacobian().transpose() * F_h;
+    return pose.torque(theta, qdot, r.qdot, r.qddot) - Kd.cwiseProduct(r.delta) - torque_of(pose, F_h);
+  }
+
+ private:
+  // J' F, by the pose's own short cut where it has one.
+  [[nodiscard]] static Joints torque_of(const PoseOf<R>& pose, const Force& F) noexcept {
+    if constexpr (requires {
+                    { pose.torque_of(F) } -> std::convertible_to<Joints>;
+                  }) {
+      return pose.torque_of(F);
+    } else {
+      return pose.jacobian().transpose() * F;
+    }
   }
 };
 

@@ -83,7 +83,7 @@ class OmniKinematics {
 
   [[nodiscard]] InverseMotion<3, Scalar> motion_of(const Vector& x, const Vector& v, const Vector& a,
                                                    const Vector& near) const noexcept {
-    if (!(is_finite(x) && is_finite(v) && is_finite(a))) return at_rest(fallback(near), Status::not_finite);
+    if (!are_finite(x.array(), v.array(), a.array())) return at_rest(fallback(near), Status::not_finite);
     Arm arm = reach(x, near);
     Vector qdot = joint_rates(arm, into_arm(arm, v));                            // (3.12)
     Vector qddot = joint_rates(arm, into_arm(arm, a) - centripetal(arm, qdot));  // (3.14)
@@ -132,15 +132,16 @@ class OmniKinematics {
     arm.q = arc_tangent(to_lanes<joints>(Vector(target[1], upward, sine).array()),
                         to_lanes<joints>(Vector(target[0], forward, cosine).array()))
                 .template head<joints>();
-    arm.c1 = target[0] / r;
-    arm.s1 = target[1] / r;
-    arm.c2 = forward / square;
-    arm.s2 = upward / square;
+    const Scalar once_per_r = 1 / r, per_square = 1 / square;
+    arm.c1 = target[0] * once_per_r;
+    arm.s1 = target[1] * once_per_r;
+    arm.c2 = forward * per_square;
+    arm.s2 = upward * per_square;
     arm.c23 = arm.c2 * c3 - arm.s2 * s3;
     arm.s23 = arm.s2 * c3 + arm.c2 * s3;
     arm.r = r;
     arm.z = z;
-    arm.per_r = r / max(level, near_axis() * near_axis());
+    arm.per_r = r < near_axis() ? r / (near_axis() * near_axis()) : once_per_r;
     arm.straight = -s3 < near_straight();
     arm.per_det = arm.straight ? Scalar(0) : 2 / sine;
     arm.status |= when(r < near_axis() || arm.straight, Status::singular);
@@ -150,8 +151,8 @@ class OmniKinematics {
 
   [[nodiscard]] bool is_beyond_limits(const Vector& q) const noexcept {
     const Scalar rounding = 128 * std::numeric_limits<Scalar>::epsilon();  // of q near the limits, in the inverse
-    return (q.array() > limits_.upper.array() + rounding).any() ||
-           (q.array() < limits_.lower.array() - rounding).any() || q[1] + q[2] > limits_.elbow_sum + rounding;
+    const Vector beyond = (q - limits_.upper).cwiseMax(limits_.lower - q);
+    return std::max(beyond.maxCoeff(), Scalar(q[1] + q[2] - limits_.elbow_sum)) > rounding;
   }
 
   // Brings q to the nearest joints within the limits. Where (5.4) is broken within the box of the others, they are on

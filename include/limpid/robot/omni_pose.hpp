@@ -51,6 +51,13 @@ class OmniPose {
     return J;
   }
 
+  /// J' F, N m, of a force on the tip, N, base frame; without J's zeros and sums of products.
+  [[nodiscard]] Vector torque_of(const Vector& F) const noexcept {
+    const auto& [c1, s1, c2, s2, c23, s23] = angles_;
+    const Scalar outward = c1 * F[0] + s1 * F[1], around = c1 * F[1] - s1 * F[0];
+    return {r_ * around, r_ * F[2] - z_ * outward, links_.l3 * (c23 * F[2] - s23 * outward)};
+  }
+
   /// J', m/(rad s). Eq. (3.11): (3.9) differentiated by the product rule, which is the same with fewer products.
   [[nodiscard]] Matrix jacobian_dot(const Vector& qdot) const noexcept {
     const auto& [c1, s1, c2, s2, c23, s23] = angles_;
