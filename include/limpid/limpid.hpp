@@ -47,6 +47,7 @@
 #include <limpid/estimation/excitation.hpp>
 #include <limpid/estimation/exponential_mean.hpp>
 #include <limpid/estimation/frequency_identification.hpp>
+#include <limpid/estimation/information_series.hpp>
 #include <limpid/estimation/least_squares_flow.hpp>
 #include <limpid/estimation/projection_rls.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
@@ -57,6 +58,7 @@
 #include <limpid/prediction/held_tangents.hpp>
 #include <limpid/prediction/hold_predictor.hpp>
 #include <limpid/prediction/knots.hpp>
+#include <limpid/prediction/lane_motion.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/flat.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
 #include <limpid/loop/block.hpp>
@@ -31,7 +32,8 @@ class Loop;
 /// A signal lives for one tick, where its block returned it. Only those read as `Previous` and those of blocks that may
 /// be skipped are kept in the loop.
 /// @tparam Given  the blocks handed to make_loop, in any order
-/// @realtime      step: no allocation and no throw of its own; costs the calls of its blocks
+/// @realtime      step: no allocation and no throw of its own; costs the calls of its blocks, inlined into one function
+///                (`flat`)
 template <typename... W, typename... In, typename... Given>
 class Loop<wants<W...>, inputs<In...>, Given...> {
   using Wiring = wiring::Wiring<wants<W...>, inputs<In...>, Given...>;
@@ -67,14 +69,9 @@ class Loop<wants<W...>, inputs<In...>, Given...> {
                                                const typename In::value_type&... values) noexcept(nothrow(Calls{})) {
     if constexpr (sound) {
       const typename Wiring::InputValues inputs{values...};
-      const wiring::Tick<Wiring, Blocks, Memory> tick{blocks_, memory_, now};
       const Status heard = (Status::ok | ... | wiring::status_of(values));
-      return tick.template run<0>(
-          {inputs}, heard, [&](const auto& seen, const Status& status) __attribute__((always_inline)) {
-            (remember<In>(tick, seen), ...);
-            remember(tick, seen, Calls{});
-            return StepResult<W...>{{tick.template value<W>(seen, status)}..., status};
-          });
+      return flat<wiring::WidestScalar<typename In::value_type..., typename W::value_type...>>(
+          [&]() noexcept(nothrow(Calls{})) { return ticked(now, inputs, heard); });
     } else {
       std::terminate();  // never compiled without an error
     }
@@ -94,6 +91,17 @@ class Loop<wants<W...>, inputs<In...>, Given...> {
   template <std::size_t... K, typename Tuple>
   Loop(std::index_sequence<K...>, Tuple&& given)
       : blocks_(std::get<Wiring::order.block[K]>(std::forward<Tuple>(given))...) {}
+
+  [[gnu::always_inline]] StepResult<W...> ticked(Time now, const typename Wiring::InputValues& inputs,
+                                                 const Status& heard) noexcept(nothrow(Calls{})) {
+    const wiring::Tick<Wiring, Blocks, Memory> tick{blocks_, memory_, now};
+    return tick.template run<0>(
+        {inputs}, heard, [&](const auto& seen, const Status& status) __attribute__((always_inline)) {
+          (remember<In>(tick, seen), ...);
+          remember(tick, seen, Calls{});
+          return StepResult<W...>{{tick.template value<W>(seen, status)}..., status};
+        });
+  }
 
   template <typename S, typename Tick, typename Seen>
   [[gnu::always_inline]] void remember(const Tick& tick, const Seen& seen) {

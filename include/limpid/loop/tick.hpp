@@ -35,6 +35,21 @@ struct Slots<Wiring, Skippable, boost::hana::tuple<S...>>
     : LastWritten<typename S::type, Skippable>...,
       LastTick<typename S::type, Wiring::template is_read_later<typename S::type>>... {};
 
+/// For `flat`: the scalar of one of these values that is a class, where there is one, else double.
+template <typename... Values>
+struct Widest {
+  using type = double;
+};
+template <typename Value, typename... Rest>
+struct Widest<Value, Rest...> : Widest<Rest...> {};
+template <typename Value, typename... Rest>
+requires std::is_class_v<typename Value::Scalar>
+struct Widest<Value, Rest...> {
+  using type = typename Value::Scalar;
+};
+template <typename... Values>
+using WidestScalar = typename Widest<Values...>::type;
+
 /// The signals that outlive a tick: those of skippable blocks, and those read as Previous.
 template <typename Wiring, typename Calls>
 struct Memory;
