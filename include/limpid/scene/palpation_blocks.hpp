@@ -13,8 +13,9 @@
 #include <concepts>
 #include <utility>
 
-/// Components as blocks of a `Loop`: a line or two each, so that the loop costs what the calls cost. Each block holds
-/// its component by value, in the member `component`, and does not allocate where the component does not.
+/// Components as blocks of a `Loop`: a line or two each, always inlined, so that the loop costs what the calls cost.
+/// Each block holds its component by value, in the member `component`, and does not allocate where the component does
+/// not.
 namespace limpid::palpation {
 
 /// A slow environment, as if it ran elsewhere: the true tool, sampled, delayed and held.
@@ -25,7 +26,8 @@ struct SamplingBlock {
 
   DelayedSampled<ToolState<Axes, Scalar>, Capacity> component;
 
-  const Held<ToolState<Axes, Scalar>>& operator()(Time now, const ToolState<Axes, Scalar>& tool) noexcept {
+  [[gnu::always_inline]] const Held<ToolState<Axes, Scalar>>& operator()(Time now,
+                                                                         const ToolState<Axes, Scalar>& tool) noexcept {
     return component.update(now, tool);
   }
 };
@@ -40,20 +42,34 @@ struct AdaptationBlock {
 
   EnvironmentEstimator<Env> component;
 
-  Reported<typename Estimate<Env>::value_type> operator()(Time now,
-                                                          const Held<ToolState<axes, Scalar>>& seen) noexcept {
+  [[gnu::always_inline]] Reported<typename Estimate<Env>::value_type> operator()(
+      Time now, const Held<ToolState<axes, Scalar>>& seen) noexcept {
     const Status status = component.update(now, seen);
     return {component.estimate(), status};
   }
 };
 
+/// What is held as a sample, copied entry by entry: in larger pieces than it was stored in the copy would wait.
+template <int Axes, Real Scalar>
+[[nodiscard, gnu::always_inline]] inline ToolSample<Axes, Scalar> sample_of(
+    const Held<ToolState<Axes, Scalar>>& held) noexcept {
+  ToolSample<Axes, Scalar> sample;
+  sample.value.x = held.value.x;
+  sample.value.v = held.value.v;
+  sample.value.a = held.value.a;
+  sample.value.force = held.value.force;
+  sample.taken = held.taken;
+  sample.arrived = held.arrived;
+  return sample;
+}
+
 /// Observes what is fresh and predicts to now.
 template <typename P, int Axes, Real Scalar>
-[[nodiscard]] Prediction<Axes, Scalar> observe_and_advance(P& predictor, Time now,
-                                                           const Held<ToolState<Axes, Scalar>>& seen,
-                                                           const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
+[[nodiscard, gnu::always_inline]] inline Prediction<Axes, Scalar> observe_and_advance(
+    P& predictor, Time now, const Held<ToolState<Axes, Scalar>>& seen,
+    const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
   Status status = Status::ok;
-  if (seen.fresh) status = predictor.observe({seen.value, seen.taken, seen.arrived});
+  if (seen.fresh) status = predictor.observe(sample_of(seen));
   auto predicted = predictor.advance(now, F_h.template head<Axes>().array());
   predicted.status |= status;
   return predicted;
@@ -67,8 +83,8 @@ struct PredictionBlock {
 
   P component;
 
-  Prediction<Axes, Scalar> operator()(Time now, const Held<ToolState<Axes, Scalar>>& seen,
-                                      const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
+  [[gnu::always_inline]] Prediction<Axes, Scalar> operator()(Time now, const Held<ToolState<Axes, Scalar>>& seen,
+                                                             const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
     return observe_and_advance<P, Axes, Scalar>(component, now, seen, F_h);
   }
 };
@@ -83,9 +99,9 @@ struct AdaptivePredictionBlock {
 
   P component;
 
-  Prediction<axes, Scalar> operator()(Time now, const Held<ToolState<axes, Scalar>>& seen,
-                                      const typename Estimate<Env>::value_type& estimate,
-                                      const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
+  [[gnu::always_inline]] Prediction<axes, Scalar> operator()(Time now, const Held<ToolState<axes, Scalar>>& seen,
+                                                             const typename Estimate<Env>::value_type& estimate,
+                                                             const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
     const Status used = component.use(estimate);
     auto predicted = observe_and_advance<P, axes, Scalar>(component, now, seen, F_h);
     predicted.status |= used;
@@ -104,8 +120,8 @@ struct KinematicsBlock {
   K component;
   Point wall;  ///< origin of the wall in the base frame, m
 
-  typename DesiredState<R>::value_type operator()(Time, const Prediction<Axes, Scalar>& predicted,
-                                                  const typename MeasuredState<R>::value_type& measured) noexcept {
+  [[gnu::always_inline]] typename DesiredState<R>::value_type operator()(
+      Time, const Prediction<Axes, Scalar>& predicted, const typename MeasuredState<R>::value_type& measured) noexcept {
     Point x = wall, v = Point::Zero(), a = Point::Zero();
     x.template head<Axes>() += predicted.motion.x.matrix();
     v.template head<Axes>() = predicted.motion.v.matrix();
@@ -131,9 +147,10 @@ struct TrackingBlock {
 
   Controller component;
 
-  Reported<JointVector<R>> operator()(Time, const typename MeasuredState<R>::value_type& measured,
-                                      const typename DesiredState<R>::value_type& desired,
-                                      const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
+  [[gnu::always_inline]] Reported<JointVector<R>> operator()(Time,
+                                                             const typename MeasuredState<R>::value_type& measured,
+                                                             const typename DesiredState<R>::value_type& desired,
+                                                             const Eigen::Matrix<Scalar, 3, 1>& F_h) noexcept {
     const auto [tau, status] = component.update(measured.joint_state(), desired, F_h);
     return {tau, status};
   }
@@ -149,10 +166,10 @@ struct TrackingBlock<Controller, R> {
 
   Controller component;
 
-  Reported<JointVector<R>> operator()(Time now, const typename MeasuredState<R>::value_type& measured,
-                                      const typename DesiredState<R>::value_type& desired,
-                                      const Eigen::Matrix<Scalar, 3, 1>& F_h,
-                                      const typename AllowedTorque<R>::value_type& applied) noexcept {
+  [[gnu::always_inline]] Reported<JointVector<R>> operator()(
+      Time now, const typename MeasuredState<R>::value_type& measured,
+      const typename DesiredState<R>::value_type& desired, const Eigen::Matrix<Scalar, 3, 1>& F_h,
+      const typename AllowedTorque<R>::value_type& applied) noexcept {
     const auto [tau, status] = component.update(now, measured.joint_state(), desired, F_h, applied.value());
     return {tau, status};
   }
@@ -166,9 +183,9 @@ struct SafetyBlock {
 
   SafetyLimiter<R> component;
 
-  Reported<typename AllowedTorque<R>::value_type> operator()(Time now,
-                                                             const typename MeasuredState<R>::value_type& measured,
-                                                             const JointVector<R>& wanted, Status upstream) noexcept {
+  [[gnu::always_inline]] Reported<typename AllowedTorque<R>::value_type> operator()(
+      Time now, const typename MeasuredState<R>::value_type& measured, const JointVector<R>& wanted,
+      Status upstream) noexcept {
     const auto [torque, status] = component.limit(now, measured.joint_state(), wanted, upstream);
     return {torque, status};
   }
