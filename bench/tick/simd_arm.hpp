@@ -38,8 +38,8 @@ class SimdArm {
     const Lanes sine = S * C_e - C * S_e, cosine = C * C_e + S * S_e;  // of q - q_e
     const Lanes t = sine / cosine, tt = t * t;
     Lanes e = t + t * tt * simd::polynomial(simd::arc_tangent_terms, tt);
-    constexpr Lanes longest{1e300, 0.2, 0.2, 0.2};
-    if (simd::any((sine > longest * cosine) | (-sine > longest * cosine))) [[unlikely]] {
+    constexpr Lanes longest{1e300, 0.04, 0.04, 0.04};
+    if (simd::any((tt > longest) | (Bits)cosine)) [[unlikely]] {
       simd::any_arc_tangent(sine, cosine, e);
     }
     const Lanes w{0, qdot[1], qdot[1] + qdot[2], qdot[0]}, de = w - w_e;
@@ -127,9 +127,10 @@ class SimdArm {
     const Lanes link = own * inertia + coupled * between + C * (weight - links * lift) + S * (links * along);
     const Lanes own_joint = friction * rate - Kd_ * error;
     const Lanes low = __builtin_shuffle(joint1, link, Bits{0, 4, 2, 6});
-    const Lanes high = __builtin_shuffle(joint1, link, Bits{1, 5, 3, 7}), pairs = low + high;
-    const Lanes damped = __builtin_shuffle(own_joint, Bits{3, 1, 2, 2});
-    return {pairs[0] + pairs[2] + damped[0], pairs[1] + pairs[3] + damped[1], pairs[3] + damped[3]};
+    const Lanes high = __builtin_shuffle(joint1, link, Bits{1, 5, 3, 7});
+    const Lanes pairs = low + high, rest = pairs + __builtin_shuffle(own_joint, Bits{3, 1, 2, 2});
+    const Lanes tau = rest + __builtin_shuffle(pairs, Bits{2, 3, 0, 1});
+    return {tau[0], tau[1], rest[3]};
   }
 
   Lanes wall_, Lambda_, coupling_, Kd_;

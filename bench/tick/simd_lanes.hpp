@@ -30,13 +30,13 @@ template <int lane>
   return __builtin_shuffle(v, Bits{lane, lane, lane, lane});
 }
 
-/// Whether a comparison holds in any lane.
+/// Whether a comparison holds in any lane, or any sign bit is set.
 [[gnu::always_inline]] inline bool any(const Bits& mask) {
 #ifdef __AVX__
   const Lanes signs = (Lanes)mask;
   return __builtin_ia32_vtestzpd256(signs, signs) == 0;
 #else
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+  return (mask[0] | mask[1] | mask[2] | mask[3]) < 0;
 #endif
 }
 
