@@ -64,9 +64,9 @@ class SimdArm {
   };
 
   /// The other link's.
-  [[gnu::always_inline]] static Lanes other(const Lanes& v) { return __builtin_shuffle(v, Bits{0, 2, 1, 3}); }
+  [[gnu::always_inline]] static Lanes other(const Lanes& v) { return __builtin_shufflevector(v, v, 0, 2, 1, 3); }
   [[gnu::always_inline]] static Lanes with_joint1(const Lanes& v, const Lanes& joint1) {
-    return __builtin_shuffle(v, joint1, Bits{0, 1, 2, 7});
+    return __builtin_shufflevector(v, joint1, 0, 1, 2, 7);
   }
   /// From angles of links to angles of joints.
   [[gnu::always_inline]] static Lanes joints(const Lanes& v) { return v - Lanes{0, 0, 1, 0} * simd::spread<1>(v); }
@@ -74,7 +74,7 @@ class SimdArm {
   /// Of a vector on {x, y}: in the arm's plane and across it.
   [[gnu::always_inline]] static void turn(const Lanes& c1, const Lanes& s1, const Lanes& v, Lanes& along,
                                           Lanes& across) {
-    const Lanes swapped = __builtin_shuffle(v, Bits{1, 0, 3, 2}), part = c1 * v;
+    const Lanes swapped = __builtin_shufflevector(v, v, 1, 0, 3, 2), part = c1 * v;
     along = simd::spread<0>(part + s1 * swapped);
     across = simd::spread<1>(part - s1 * swapped);
   }
@@ -91,7 +91,7 @@ class SimdArm {
     const Lanes middle = square_ + Lanes{0, l2 * l2 - l3 * l3, l3 * l3 - l2 * l2, 0}, side = bend * Lanes{0, 1, -1, 0};
     const Lanes forward = with_joint1(r * middle - z * side, simd::spread<0>(p));
     const Lanes upward = with_joint1(z * middle + r * side, simd::spread<1>(p));
-    const Lanes divisor = with_joint1(__builtin_shuffle(square_, bend, Bits{4, 1, 2, 3}), r);
+    const Lanes divisor = with_joint1(__builtin_shufflevector(square_, bend, 4, 1, 2, 3), r);
     const Lanes per = Lanes{1, 1 / (2 * l2), 1 / (2 * l3), 1} / divisor;
     C = forward * per;
     S = upward * per;
@@ -126,10 +126,10 @@ class SimdArm {
     const Lanes joint1 = first * (C * inertia + C_o * between) - links * C * across;  // its sum
     const Lanes link = own * inertia + coupled * between + C * (weight - links * lift) + S * (links * along);
     const Lanes own_joint = friction * rate - Kd_ * error;
-    const Lanes low = __builtin_shuffle(joint1, link, Bits{0, 4, 2, 6});
-    const Lanes high = __builtin_shuffle(joint1, link, Bits{1, 5, 3, 7});
-    const Lanes pairs = low + high, rest = pairs + __builtin_shuffle(own_joint, Bits{3, 1, 2, 2});
-    const Lanes tau = rest + __builtin_shuffle(pairs, Bits{2, 3, 0, 1});
+    const Lanes low = __builtin_shufflevector(joint1, link, 0, 4, 2, 6);
+    const Lanes high = __builtin_shufflevector(joint1, link, 1, 5, 3, 7);
+    const Lanes pairs = low + high, rest = pairs + __builtin_shufflevector(own_joint, own_joint, 3, 1, 2, 2);
+    const Lanes tau = rest + __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1);
     return {tau[0], tau[1], rest[3]};
   }
 

@@ -27,7 +27,7 @@ template <typename Vector>
 /// One lane in all.
 template <int lane>
 [[gnu::always_inline]] inline Lanes spread(const Lanes& v) {
-  return __builtin_shuffle(v, Bits{lane, lane, lane, lane});
+  return __builtin_shufflevector(v, v, lane, lane, lane, lane);
 }
 
 /// Whether a comparison holds in any lane, or any sign bit is set.

@@ -120,7 +120,7 @@ class SimdTick {
 
   // With less forgetting, by any step, and back into the box.
   [[gnu::noinline, gnu::cold]] void adapt_slowly(int i) {
-    double &k = k_[i], &b = b_[i], &U = U_[i], &D0 = D0_[i], &D1 = D1_[i];
+    double k = k_[i], b = b_[i], U = U_[i], D0 = D0_[i], D1 = D1_[i];
     const double phi_x = seen().x[i], phi_v = seen().v[i], epsilon = phi_x * k + phi_v * b - seen().force[i];
     const double tr = D0 + D1 * (1 + U * U), largest = tr / 2 + std::sqrt(std::max(0.0, tr * tr / 4 - D0 * D1));
     double alpha = s_.alpha, T = c_.growth[i];
@@ -141,8 +141,11 @@ class SimdTick {
     const double across = U * D1, k_in = std::clamp(k, s_.lower[0], s_.upper[0]);
     b += across * ((k_in - k) / (D0 + U * across));
     const double b_in = std::clamp(b, s_.lower[1], s_.upper[1]);
-    k = std::clamp(k_in + across * ((b_in - b) / D1), s_.lower[0], s_.upper[0]);
-    b = b_in;
+    k_[i] = std::clamp(k_in + across * ((b_in - b) / D1), s_.lower[0], s_.upper[0]);
+    b_[i] = b_in;
+    U_[i] = U;
+    D0_[i] = D0;
+    D1_[i] = D1;
   }
 
   // Exact step of (4.25): r and s, answers to the unit ramp and step over h^3 and h^2, by their series,
