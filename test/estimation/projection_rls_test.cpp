@@ -62,6 +62,7 @@ TEST_CASE("what is not finite, or does not advance, changes nothing") {
     CHECK(rls.update(0.001, Pair(0.01, 0.01), force(bad)) == Status::not_finite);
   }
   CHECK(rls.update(0.001, Pair(1e200, 0.01), force(1)) == Status::not_finite);  // its square is infinite
+  CHECK(rls.update(0.001, Pair(1e150, 0.01), force(1)) == Status::not_finite);  // D would be as good as 0
   CHECK(rls.update(0, Pair(0.01, 0.01), force(1)) == Status::clock_backwards);
   CHECK(rls.update(-0.001, Pair(0.01, 0.01), force(1)) == Status::clock_backwards);
   CHECK((rls.theta() == theta).all());

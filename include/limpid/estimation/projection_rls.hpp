@@ -91,7 +91,9 @@ class ProjectionRLS {
   /// The law over `dt` seconds with `phi` and `F` held.
   /// @param phi  regressor phi_e,zd; row: axis
   /// @param F    measured force less its known part, N
-  /// @return     not_finite or clock_backwards: nothing changed; at_bound: the box held a parameter
+  /// @return     not_finite (also where phi or F is too large to be squared, or would take D below the
+  ///             factors' floor, the smallest normal number over epsilon) or clock_backwards: nothing changed;
+  ///             at_bound: the box held a parameter
   [[nodiscard]] Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
     return update(dt, Held(phi, F));
   }
@@ -135,7 +137,8 @@ class ProjectionRLS {
     next = state_;  // assigned, not constructed: by whole packets
     flow(next, dt, phi, F);
     const Status bound = project(next);
-    if (!finite(next.theta, next.Gamma.sum())) return Status::not_finite;  // phi or F too large to be squared
+    // else phi or F is too large to be squared
+    if (!finite(next.theta, next.Gamma.sum()) || !next.Gamma.is_resolved()) return Status::not_finite;
     state_ = next;
     return bound;
   }
@@ -155,7 +158,8 @@ class ProjectionRLS {
            "ProjectionRLS: initial", "within lower and upper", s.initial);
     expect(is_finite(s.gain_limit) && s.gain_limit > Scalar{0}, "ProjectionRLS: gain_limit", "finite and > 0",
            s.gain_limit);
-    expect(is_finite(s.initial_gain) && (s.initial_gain > Scalar{0}).all() && (s.initial_gain <= s.gain_limit).all(),
+    expect(is_finite(s.initial_gain) && (s.initial_gain >= Factorised::floor()).all() &&
+               (s.initial_gain <= s.gain_limit).all(),
            "ProjectionRLS: initial_gain", "> 0 and <= gain_limit", s.initial_gain);
     expect(is_finite(s.forgetting) && s.forgetting >= Scalar{0}, "ProjectionRLS: forgetting", "finite and >= 0",
            s.forgetting);

@@ -2,19 +2,21 @@
 #pragma once
 
 #include <limpid/core/real.hpp>
+#include <limpid/estimation/any_above.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace limpid {
 
 /// Symmetric positive definite matrices Gamma = U D U', one a lane: U unit upper triangular, D diagonal and positive.
 ///
-/// A rank-one downdate multiplies D by positive numbers only (Bierman), so that Gamma stays definite in any precision;
-/// a subtraction from Gamma itself would not.
+/// A rank-one downdate multiplies D by positive numbers only (Bierman), so that Gamma stays definite in any precision
+/// (as long as D is in range, see `is_resolved`); a subtraction from Gamma itself would not.
 /// @tparam N      order of the matrices
 /// @tparam Array  the lanes, a fixed-size `Eigen::Array`
 template <int N, typename Array>
@@ -30,6 +32,9 @@ class UDFactors {
     Columns v;  ///< D U' phi
     Array s;    ///< phi' Gamma phi
   };
+
+  /// The least D, far below any gain of use: D still has all its digits, and no rounding of U D U' is beyond its size.
+  static Scalar floor() noexcept { return std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon(); }
 
   UDFactors() = default;  // unset
   explicit UDFactors(const Columns& diagonal) noexcept : D_{diagonal} { U_.fill(Array::Zero()); }
@@ -60,7 +65,7 @@ class UDFactors {
         U_[at(i, j)] -= slope * (u * seen.f[j]);
       }
       b[j] = seen.v[j];
-      D_[j] = (D_[j] * (a * raised_inverse)).max(floor());
+      D_[j] *= a * raised_inverse;
       a = raised;
       inverse = raised_inverse;
     }
@@ -80,6 +85,13 @@ class UDFactors {
       sum += column * D_[j];
     }
     return sum;
+  }
+
+  /// Whether D >= floor().
+  [[nodiscard]] bool is_resolved() const noexcept {
+    Array least = D_[0];
+    for (std::size_t j = 1; j < n; ++j) least = least.min(D_[j]);
+    return !any_above(Array(-least), Scalar(-floor()));
   }
 
   /// Finite exactly where all factors are (short of overflow in the sum itself).
@@ -116,9 +128,6 @@ class UDFactors {
  private:
   static constexpr std::size_t n = N;
   static constexpr std::size_t at(std::size_t i, std::size_t j) { return j * (j - 1) / 2 + i; }  // i < j
-
-  // Far below any gain of use; keeps D positive where it would underflow.
-  static Scalar floor() noexcept { return std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon(); }
 
   Columns D_;
   std::array<Array, n*(n - 1) / 2> U_;  // above the diagonal, by columns
