@@ -33,8 +33,8 @@ namespace limpid {
 ///
 /// Windup: (4.45) as printed stops altogether once lambda_max(Gamma) passes rho_M, and then never moves again. Here
 /// only the forgetting stops: a step that starts from Gamma uses, in place of alpha, the largest alpha' <= alpha for
-/// which exp(alpha' dt) lambda_max(Gamma) <= rho_M (0 where there is none). lambda_max(Gamma) <= rho_M holds always, to
-/// the roundings of the factors.
+/// which exp(alpha' dt) lambda_max(Gamma) <= rho_M. lambda_max(Gamma) <= rho_M holds always, to the roundings of the
+/// factors in one step (16 at most, of rho_M): the next step starts by taking them back, lest they add up.
 ///
 /// Projection: the step is taken freely and then brought back to the box in the metric of Gamma^-1 (`project_on_box`).
 /// @tparam N     parameters of an axis
@@ -171,7 +171,7 @@ class ProjectionRLS {
 
   void flow(State& next, const Scalar& dt, const Columns& phi, const Array& F) const noexcept {
     typename Flow::Forgetting less;
-    const auto& forgetting = windup(less) ? less : forgetting_;
+    const auto& forgetting = windup(next.Gamma, less) ? less : forgetting_;
     const auto seen = next.Gamma.along(phi);
     Array epsilon = -F;
     for (std::size_t j = 0; j < phi.size(); ++j) epsilon += phi[j] * next.theta[j];
@@ -180,12 +180,12 @@ class ProjectionRLS {
     for (std::size_t j = 0; j < phi.size(); ++j) next.theta[j] -= K[j] * epsilon;
   }
 
-  // alpha dt, less where Gamma would grow past rho_M.
-  bool windup(typename Flow::Forgetting& less) const noexcept {
-    const Array bound = forgetting_.growth() * state_.Gamma.trace();  // >= T lambda_max
+  // alpha dt, less where Gamma would grow past rho_M; what roundings have taken past it is taken back.
+  bool windup(Factorised& Gamma, typename Flow::Forgetting& less) const noexcept {
+    const Array bound = forgetting_.growth() * Gamma.trace();  // >= T lambda_max
     if (!any_above(bound, rho_M_)) [[likely]]
       return false;
-    forget_less(bound, less);
+    forget_less(bound, Gamma, less);
     return true;
   }
 
@@ -195,15 +195,21 @@ class ProjectionRLS {
     forgetting_.mean = exponential_mean(forgetting_.exponent);
   }
 
-  [[gnu::noinline]] void forget_less(const Array& bound, typename Flow::Forgetting& less) const noexcept {
+  [[gnu::noinline]] void forget_less(const Array& bound, Factorised& Gamma,
+                                     typename Flow::Forgetting& less) const noexcept {
     using std::log;
-    Array exponent = forgetting_.exponent;
+    Array exponent = forgetting_.exponent, room = Array::Constant(std::numeric_limits<Scalar>::max());
     for (int lane = 0; lane < lanes; ++lane) {
       if (!(bound[lane] > rho_M_)) continue;
-      const Scalar room = log(rho_M_ / state_.Gamma.largest_eigenvalue(lane));
-      exponent[lane] = std::clamp(room, Scalar{0}, exponent[lane]);
+      room[lane] = rho_M_ / Gamma.largest_eigenvalue(lane);
+      exponent[lane] = std::clamp(Scalar(log(room[lane])), Scalar{0}, exponent[lane]);
     }
+    Gamma.scale(room.min(Scalar{1}));
     less = {exponent, exponential_mean(exponent), false};
+    for (int lane = 0; lane < lanes; ++lane) {  // exp(log(room)) has more roundings than room, the larger the more
+      if (exponent[lane] > Scalar{1})
+        less.mean[lane] = std::min(less.mean[lane], (room[lane] - Scalar{1}) / exponent[lane]);
+    }
   }
 
   Status project(State& next) const noexcept {
