@@ -73,8 +73,7 @@ template <int n, typename Mask>
 
 /// Coefficients in powers of z, in pairs, pairs of pairs and so on (Estrin): a short chain for one result at a time.
 template <typename Value, std::size_t first, std::size_t terms, std::size_t count>
-[[gnu::always_inline]] inline void paired(const std::array<double, count>& c, const Value* powers,
-                                          Value& sum) noexcept {
+[[gnu::always_inline]] inline void paired(const std::array<double, count>& c, const auto& powers, Value& sum) noexcept {
   if constexpr (terms == 1) {
     sum = Value{} + c[first];
   } else if constexpr (terms == 2) {
@@ -92,7 +91,7 @@ template <typename Value, std::size_t count>
 [[gnu::always_inline]] inline void paired_polynomial(const std::array<double, count>& c, const Value& z,
                                                      Value& sum) noexcept {
   constexpr std::size_t levels = std::bit_width(count - 1);
-  Value powers[levels];  // z, z^2, z^4, ...
+  std::array<Value, levels> powers;  // z, z^2, z^4, ...
   powers[0] = z;
   for (std::size_t i = 1; i < levels; ++i) powers[i] = powers[i - 1] * powers[i - 1];
   paired<Value, 0, count>(c, powers, sum);

@@ -21,14 +21,19 @@ struct LaneMotion {
     x.setZero();
     v.setZero();
   }
-  LaneMotion(const LaneMotion& other) noexcept {
-    *this = other;
-  }  // by whole packets, which a constructor's copy is not
+  // by whole packets, which a constructor's own copy is not
+  LaneMotion(const LaneMotion& other) noexcept { *this = other; }
+  LaneMotion(LaneMotion&& other) noexcept { *this = other; }
   LaneMotion& operator=(const LaneMotion& other) noexcept {
     x = other.x;
     v = other.v;
     return *this;
   }
+  LaneMotion& operator=(LaneMotion&& other) noexcept {
+    *this = other;
+    return *this;
+  }
+  ~LaneMotion() = default;
   LaneMotion(const Array& position, const Array& velocity) noexcept : x{position}, v{velocity} {}
   /// Of a type with axes x and v, as `Motion` and `ToolState`.
   template <typename M>
