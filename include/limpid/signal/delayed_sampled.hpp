@@ -49,8 +49,8 @@ class DelayedSampled {
     expect(longest_age_ >= delay_and_periods(delay_, period_, 1), "DelayedSampled: longest_age",
            "at least the delay and a period", longest_age_);
     expect(is_finite(initial), "DelayedSampled: initial", "finite", "a value that is not");
-    held_.value = initial;
-    held_.status = Status::no_sample;
+    held().value = initial;
+    held().status = Status::no_sample;
   }
 
   /// What is seen at `now`; takes a sample of `value` if one is due. The answer changes with the next call.
@@ -63,7 +63,7 @@ class DelayedSampled {
     Status status = Status::ok;
     if (!started_ || now >= next_due_) {
       status = take(now, value);
-      next_due_ = period_ * (floor_of_periods(now) + 1);
+      next_due_ = due_after(now);
     }
     return deliver(now, status, lost_);
   }
@@ -82,7 +82,7 @@ class DelayedSampled {
   [[nodiscard]] Status offer(const Sample<T>& sample) noexcept {
     if (!is_finite(sample.value)) return Status::not_finite;
     if (sample.arrived < sample.taken) return Status::clock_backwards;
-    if (arrived_any() && sample.taken <= held_.taken) return Status::out_of_order;
+    if (arrived_any() && sample.taken <= held().taken) return Status::out_of_order;
     for (std::size_t i = 0; i < count_; ++i) {
       if (slot(i).taken == sample.taken) return Status::out_of_order;
     }
@@ -91,7 +91,7 @@ class DelayedSampled {
 
  private:
   // Of samples taken in (now - delay, now] there are at most ceil(delay / period) + 1.
-  static constexpr std::size_t slots = Capacity + 1;
+  static constexpr std::size_t slots = Capacity + 2;  // and the one that is held
 
   static constexpr Duration longest = Duration::max() / 2;  // of an age, so that instants less an age do not overflow
 
@@ -101,6 +101,12 @@ class DelayedSampled {
   }
 
   [[nodiscard]] bool arrived_any() const noexcept { return any_; }
+
+  // The first multiple of the period after `now`; without a division where no period was missed.
+  [[nodiscard]] Time due_after(Time now) const noexcept {
+    const Time next = next_due_ + period_;
+    return started_ && now < next ? next : period_ * (floor_of_periods(now) + 1);
+  }
 
   // duration's own division rounds towards zero
   [[nodiscard]] Duration::rep floor_of_periods(Time t) const noexcept {
@@ -118,18 +124,18 @@ class DelayedSampled {
 
   // Keeps the ring in the order of arrival.
   Status send(const T& value, Time taken, Time arrived) noexcept {
-    const bool full = count_ == slots;
+    const bool full = count_ == slots - 1;
     if (full) drop_front();
     std::size_t i = count_++;
     for (; i > 0 && is_later(slot(i - 1), taken, arrived); --i) slot(i) = slot(i - 1);
-    Sample<T>& sample = slot(i);
+    Held<T>& sample = slot(i);
     sample.value = value;
     sample.taken = taken;
     sample.arrived = arrived;
     return when(full, Status::overflow);
   }
 
-  static bool is_later(const Sample<T>& a, Time taken, Time arrived) noexcept {
+  static bool is_later(const Held<T>& a, Time taken, Time arrived) noexcept {
     return a.arrived > arrived || (a.arrived == arrived && a.taken > taken);
   }
 
@@ -139,47 +145,50 @@ class DelayedSampled {
     started_ = true;
     now_ = now;
     bool fresh = false;
-    for (; count_ > 0 && slot(0).arrived <= now; drop_front()) {
-      const Sample<T>& sample = slot(0);
-      if (arrived_any() && sample.taken <= held_.taken) {
+    while (count_ > 0 && slot(0).arrived <= now) {
+      if (arrived_any() && slot(0).taken <= held().taken) {
         status |= Status::out_of_order;
-        continue;
+        drop_front();
+      } else {
+        hold_front();
+        any_ = fresh = true;
       }
-      held_.value = sample.value;
-      held_.taken = sample.taken;
-      held_.arrived = sample.arrived;
-      any_ = fresh = true;
     }
-    const Time since = arrived_any() ? held_.taken : first_tick_;
+    const Time since = arrived_any() ? held().taken : first_tick_;
     return seen(fresh, status | when(since < now - longest_age_ && since <= owed, Status::stale));
   }
 
   [[nodiscard]] const Held<T>& seen(bool fresh, Status status) noexcept {
-    held_.fresh = fresh;
-    held_.status = status | when(!any_, Status::no_sample);
-    return held_;
+    held().fresh = fresh;
+    held().status = status | when(!any_, Status::no_sample);
+    return held();
   }
 
-  Sample<T>& slot(std::size_t i) noexcept {
-    const std::size_t at = first_ + i;
+  // The one as last seen; those on their way follow it.
+  Held<T>& held() noexcept { return ring_[held_]; }
+  Held<T>& slot(std::size_t i) noexcept {
+    const std::size_t at = held_ + 1 + i;
     return ring_[at < slots ? at : at - slots];
   }
 
-  void drop_front() noexcept {
-    first_ = first_ + 1 < slots ? first_ + 1 : 0;
+  void hold_front() noexcept {
+    held_ = held_ + 1 < slots ? held_ + 1 : 0;
     --count_;
+  }
+  void drop_front() noexcept {
+    slot(0) = held();
+    hold_front();
   }
 
   Duration period_;
   Duration delay_;
   Duration longest_age_;
-  Held<T> held_;  // as last seen
   bool started_ = false, any_ = false;
-  Time first_tick_{}, now_{};  // and the last tick
-  Time next_due_{};            // of the next sample
-  Time lost_ = Time::min();    // the last due sample that was not finite
-  std::size_t first_ = 0, count_ = 0;
-  std::array<Sample<T>, slots> ring_{};  // on their way, by arrival
+  Time first_tick_{}, now_{};          // and the last tick
+  Time next_due_{};                    // of the next sample
+  Time lost_ = Time::min();            // the last due sample that was not finite
+  std::size_t held_ = 0, count_ = 0;   // where in the ring; how many are on their way
+  std::array<Held<T>, slots> ring_{};  // by arrival
 };
 
 }  // namespace limpid

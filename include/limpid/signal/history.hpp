@@ -52,6 +52,9 @@ class History {
   ///                 `no_sample`: nothing is stored, zero is returned
   [[nodiscard]] Entry at(Time t) const noexcept {
     if (count_ == 0) return {zero<T>(), Status::no_sample};
+    for (std::size_t age = 1; age <= 4 && age <= count_; ++age) {  // most often it is one of the last ticks
+      if (time(count_ - age) == t) return {value(count_ - age), Status::ok};
+    }
     const std::size_t i = first_not_before(t);
     if (i == count_) return {value(count_ - 1), Status::out_of_history};
     if (time(i) == t) return {value(i), Status::ok};
