@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limpid/control/tracking_law.hpp>
+#include <limpid/core/any_lane.hpp>
 #include <limpid/core/flat.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/status.hpp>
@@ -128,7 +129,17 @@ class SlotineLiAdaptive {
     power_ = power;
     theta_hat_ = kept;
     tau_ = tau;
-    return {tau_, when(!sound || (moved - kept).abs().sum() > Scalar(0), Status::at_bound)};
+    return {tau_, when(!sound || differ(moved, kept), Status::at_bound)};
+  }
+
+  // Of finite entries.
+  static bool differ(const Array& a, const Array& b) noexcept {
+    const Array distance = (a - b).abs();
+    if constexpr (detail::in_packets<Array>) {
+      return !detail::all_at_most(distance, Scalar(0));
+    } else {
+      return distance.sum() > Scalar(0);
+    }
   }
 
   static Parameters of(const Array& theta) noexcept { return theta.template head<RobotTraits<R>::parameters>(); }

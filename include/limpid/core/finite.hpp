@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/any_lane.hpp>
 #include <limpid/core/real.hpp>
 
 #include <Eigen/Core>
@@ -30,8 +31,16 @@ template <typename Derived>
 template <typename First, typename... Rest>
 [[nodiscard]] EIGEN_ALWAYS_INLINE bool are_finite(const Eigen::ArrayBase<First>& first,
                                                   const Eigen::ArrayBase<Rest>&... rest) noexcept {
-  const typename First::Scalar none{0};
-  return ((first.derived() * none) + ... + (rest.derived() * none)).sum() == none;
+  using Scalar = typename First::Scalar;
+  const Scalar none{0};
+  using Sum = Eigen::Array<Scalar, First::RowsAtCompileTime, First::ColsAtCompileTime, Eigen::DontAlign>;
+  const Sum zero = ((first.derived() * none) + ... + (rest.derived() * none));
+  if constexpr (detail::in_packets<Sum>) {
+    return !detail::any_entry(
+        [](auto& mask, const auto& z) __attribute__((always_inline)) { mask = z != z; }, zero);
+  } else {
+    return zero.sum() == none;
+  }
 }
 
 }  // namespace limpid

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/any_lane.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/inverse_factorial.hpp>
 #include <limpid/core/lanes.hpp>
@@ -91,6 +92,10 @@ class SecondOrderStep {
   // By 2 |kappa| h^2, which is `longest` where sqrt(|kappa|) h is; what is not finite is too long.
   static bool is_too_long(const Array& kappa, const Array& beta, const Scalar& h) noexcept {
     static_assert(longest == 0.5);
+    if constexpr (detail::in_packets<Array>) {
+      return !detail::all_at_most(Array(beta.abs() * h), Scalar(longest)) ||
+             !detail::all_at_most(Array(kappa.abs() * (Scalar{2} * h * h)), Scalar(longest));
+    }
     const Array sizes = (beta.abs() * h).max(kappa.abs() * (Scalar{2} * h * h));
     return !(((sizes - Scalar(longest)).max(Scalar{0}) + (beta + kappa) * (h * Scalar{0})).sum() <= Scalar{0});
   }

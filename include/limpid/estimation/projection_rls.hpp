@@ -148,7 +148,7 @@ class ProjectionRLS {
     const Scalar none{0};
     sum *= none;
     for (const auto& entry : columns) sum += entry * none;
-    return sum.sum() == none;
+    return are_finite(sum);
   }
 
   static const Settings& checked(const Settings& s) {

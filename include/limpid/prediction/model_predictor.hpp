@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/any_lane.hpp>
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/flat.hpp>
@@ -210,7 +211,7 @@ class ModelPredictor {
   }
 
   // The environment beside the tool; where it is not linear, about `at`.
-  [[nodiscard]] Model model_of(const Theta& theta, const State& at) const noexcept {
+  [[nodiscard, gnu::always_inline]] Model model_of(const Theta& theta, const State& at) const noexcept {
     if constexpr (exact) {
       const auto columns = to_lane_columns<axes>(theta);
       Model model = at_zero_;
@@ -300,7 +301,12 @@ class ModelPredictor {
     model_ = model;
   }
   static bool same(const Model& a, const Model& b) noexcept {
-    return ((a.kappa - b.kappa).abs() + (a.beta - b.beta).abs() + (a.constant - b.constant).abs()).sum() == Scalar{0};
+    const Array distance = (a.kappa - b.kappa).abs() + (a.beta - b.beta).abs() + (a.constant - b.constant).abs();
+    if constexpr (detail::in_packets<Array>) {
+      return detail::all_at_most(distance, Scalar{0});
+    } else {
+      return distance.sum() == Scalar{0};
+    }
   }
 
   // From the last tick to the next one, dt seconds later, at whose end F_h / m is `pushed`.
