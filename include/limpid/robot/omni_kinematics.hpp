@@ -10,22 +10,25 @@
 #include <limpid/core/status.hpp>
 #include <limpid/robot/inverse_kinematics.hpp>
 #include <limpid/robot/omni.hpp>
+#include <limpid/robot/omni_lanes.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
+#include <type_traits>
 
 namespace limpid {
 
 /// Inverse kinematics of the Omni in closed form, elbow up (q3 <= 0), tip before the base: (3.3)-(3.6), (3.13), (3.14).
 ///
 /// Every angle is an arc tangent of two lengths, well conditioned up to the edges of the workspace, where the arc
-/// cosine of (3.5) is not: a motion in 111 ns to 3e-15, as printed in 303 to 3e-15 (bench/time_error).
-/// Within 1/256 of a singularity (r over the reach, or |sin q3|) the inverse of J is damped:
-/// rates stay bounded, and the direction that the arm has lost is given up first.
+/// cosine of (3.5) is not; bench/time_error sets it against the equations as printed. Where the processor has registers
+/// of four, the links go side by side (`detail::OmniLanes`). Within 1/256 of a singularity (r over the reach, or
+/// |sin q3|) the inverse of J is damped: rates stay bounded, and the direction that the arm has lost is given up first.
 ///
 /// Joints beyond their limits are brought to the nearest admissible ones, in the 2-norm: Table 5.1 and (5.4). Those
 /// that were moved have zero rates, the others move as if none had been; the status is then `unreachable`. Joints
@@ -55,7 +58,8 @@ class OmniKinematics {
         l3_{robot.link3()},
         outer_{l2_ + l3_},
         inner_{innermost(l2_, l3_)},
-        per_twice_l2l3_{1 / (2 * l2_ * l3_)} {
+        per_twice_l2l3_{1 / (2 * l2_ * l3_)},
+        lanes_(l2_, l3_, limits.lower, limits.upper, limits.elbow_sum, near_axis(), near_straight()) {
     expect((limits.lower.array() <= limits.upper.array()).all(), "OmniKinematics: lower", "<= upper", limits.lower);
     expect(limits.elbow_sum >= limits.lower[1] + limits.lower[2], "OmniKinematics: elbow_sum",
            ">= the sum of the lower limits", limits.elbow_sum);
@@ -65,6 +69,13 @@ class OmniKinematics {
   /// @param near  rad; gives q1 where the tip is on the vertical axis, and the answer where x is not finite; looked at
   ///              only there, and taken as zero where it is not finite itself
   [[nodiscard]] InverseJoints<3, Scalar> inverse(const Vector& x, const Vector& near = Vector::Zero()) const noexcept {
+    if constexpr (LanesOfArm::pay) {
+      typename LanesOfArm::Motion motion;
+      if (lanes_.inverse(x, Vector::Zero(), Vector::Zero(), motion)) [[likely]] {
+        const auto held = within_limits(motion.q, motion.qdot, motion.qddot, Status::ok);
+        return {held.q, held.status};
+      }
+    }
     if (!is_finite(x)) return {fallback(near), Status::not_finite};
     Arm arm = reach(x, near);
     if (is_beyond_limits(arm.q)) (void)hold_within_limits(arm);
@@ -83,18 +94,45 @@ class OmniKinematics {
 
   [[nodiscard]] InverseMotion<3, Scalar> motion_of(const Vector& x, const Vector& v, const Vector& a,
                                                    const Vector& near) const noexcept {
+    if constexpr (LanesOfArm::pay) {
+      typename LanesOfArm::Motion motion;
+      if (lanes_.inverse(x, v, a, motion)) [[likely]] {
+        if (motion.at_limits) [[unlikely]] {
+          const auto free = motion;  // a copy, so that the usual one stays in registers; below too
+          return within_limits(free.q, free.qdot, free.qddot, Status::ok);
+        }
+        return {{motion.q, motion.qdot, motion.qddot}, Status::ok};
+      }
+      const Vector x_here = x, v_here = v, a_here = a;
+      return motion_anywhere(x_here, v_here, a_here, near);
+    }
+    return motion_anywhere(x, v, a, near);
+  }
+
+  [[nodiscard, gnu::noinline]] InverseMotion<3, Scalar> motion_anywhere(const Vector& x, const Vector& v,
+                                                                        const Vector& a,
+                                                                        const Vector& near) const noexcept {
     if (!are_finite(x.array(), v.array(), a.array())) return at_rest(fallback(near), Status::not_finite);
     Arm arm = reach(x, near);
     Vector qdot = joint_rates(arm, into_arm(arm, v));                            // (3.12)
     Vector qddot = joint_rates(arm, into_arm(arm, a) - centripetal(arm, qdot));  // (3.14)
     const bool in_range = is_finite(qddot);                                      // else v or a is beyond any range
-    if (is_beyond_limits(arm.q)) {
-      const auto held = hold_within_limits(arm);
-      qdot = held.select(Vector::Zero(), qdot);
-      qddot = held.select(Vector::Zero(), qddot);
+    if (!in_range) {
+      if (is_beyond_limits(arm.q)) (void)hold_within_limits(arm);
+      return at_rest(arm.q, arm.status | Status::not_finite);
     }
-    if (!in_range) return at_rest(arm.q, arm.status | Status::not_finite);
-    return {{arm.q, qdot, qddot}, arm.status};
+    return within_limits(arm.q, qdot, qddot, arm.status);
+  }
+
+  [[nodiscard, gnu::noinline]] InverseMotion<3, Scalar> within_limits(const Vector& q, const Vector& qdot,
+                                                                      const Vector& qddot,
+                                                                      Status status) const noexcept {
+    if (!is_beyond_limits(q)) return {{q, qdot, qddot}, status};
+    Arm arm;
+    arm.q = q;
+    arm.status = status;
+    const auto held = hold_within_limits(arm);
+    return {{arm.q, held.select(Vector::Zero(), qdot), held.select(Vector::Zero(), qddot)}, arm.status};
   }
 
   // The arm at its target.
@@ -239,10 +277,24 @@ class OmniKinematics {
     return max(folded, open);
   }
 
+  // Of scalars without lanes.
+  struct NoLanes {
+    static constexpr bool pay = false;
+    explicit NoLanes(const auto&...) noexcept {}
+  };
+  template <typename S>
+  struct Packets : std::type_identity<NoLanes> {};
+  template <typename S>
+  requires std::same_as<S, float> || std::same_as<S, double>
+  struct Packets<S> : std::type_identity<detail::OmniLanes<S>> {
+  };
+  using LanesOfArm = typename Packets<Scalar>::type;
+
   Limits limits_;
   Scalar l2_, l3_;         // m
   Scalar outer_, inner_;   // reachable distances of the tip from the shoulder, m
   Scalar per_twice_l2l3_;  // 1/m^2
+  [[no_unique_address]] LanesOfArm lanes_;
 };
 
 }  // namespace limpid
