@@ -48,11 +48,10 @@ template <typename Mask>
 
 /// Whether the entries of an Array fill vectors of two or four.
 template <typename Array>
-inline constexpr bool in_packets = (std::same_as<typename Array::Scalar, float> ||
-                                    std::same_as<typename Array::Scalar, double>)&&(Array::SizeAtCompileTime == 2 ||
-                                                                                    (Array::SizeAtCompileTime > 0 &&
-                                                                                     Array::SizeAtCompileTime % 4 ==
-                                                                                         0));
+inline constexpr bool in_packets = std::floating_point<typename Array::Scalar> &&
+                                   sizeof(typename Array::Scalar) <= sizeof(double) &&
+                                   (Array::SizeAtCompileTime == 2 ||
+                                    (Array::SizeAtCompileTime > 0 && Array::SizeAtCompileTime % 4 == 0));
 
 /// Whether a test holds anywhere in an array: it is given a mask to set and a vector, both by reference, as an ABI for
 /// vectors by value depends on the processor.

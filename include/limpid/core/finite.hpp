@@ -33,13 +33,13 @@ template <typename First, typename... Rest>
                                                   const Eigen::ArrayBase<Rest>&... rest) noexcept {
   using Scalar = typename First::Scalar;
   const Scalar none{0};
-  using Sum = Eigen::Array<Scalar, First::RowsAtCompileTime, First::ColsAtCompileTime, Eigen::DontAlign>;
-  const Sum zero = ((first.derived() * none) + ... + (rest.derived() * none));
-  if constexpr (detail::in_packets<Sum>) {
+  if constexpr (detail::in_packets<First> && First::ColsAtCompileTime == 1) {
+    const Eigen::Array<Scalar, First::SizeAtCompileTime, 1, Eigen::DontAlign> zero =
+        ((first.derived() * none) + ... + (rest.derived() * none));
     return !detail::any_entry(
         [](auto& mask, const auto& z) __attribute__((always_inline)) { mask = z != z; }, zero);
   } else {
-    return zero.sum() == none;
+    return ((first.derived() * none) + ... + (rest.derived() * none)).sum() == none;
   }
 }
 

@@ -17,9 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <limits>
-#include <type_traits>
 
 namespace limpid {
 
@@ -277,18 +275,7 @@ class OmniKinematics {
     return max(folded, open);
   }
 
-  // Of scalars without lanes.
-  struct NoLanes {
-    static constexpr bool pay = false;
-    explicit NoLanes(const auto&...) noexcept {}
-  };
-  template <typename S>
-  struct Packets : std::type_identity<NoLanes> {};
-  template <typename S>
-  requires std::same_as<S, float> || std::same_as<S, double>
-  struct Packets<S> : std::type_identity<detail::OmniLanes<S>> {
-  };
-  using LanesOfArm = typename Packets<Scalar>::type;
+  using LanesOfArm = typename detail::OmniLanesOf<Scalar>::type;
 
   Limits limits_;
   Scalar l2_, l3_;         // m

@@ -3,12 +3,14 @@
 
 #include <limpid/core/lane_math.hpp>
 #include <limpid/core/quad.hpp>
+#include <limpid/core/real.hpp>
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 namespace limpid::detail {
 
@@ -119,5 +121,18 @@ class OmniLanes {
   Array links_, twice_, middle_, rates_, lower_, upper_;  // by lanes
   Scalar near_, far_, squares_, per_twice_l2l3_, least_r_, least_bend_;
 };
+
+/// What stands in their place for scalars that have no such registers.
+struct NoOmniLanes {
+  static constexpr bool pay = false;
+  explicit NoOmniLanes(const auto&...) noexcept {}
+};
+
+template <Real Scalar>
+struct OmniLanesOf : std::type_identity<NoOmniLanes> {};
+template <>
+struct OmniLanesOf<float> : std::type_identity<OmniLanes<float>> {};
+template <>
+struct OmniLanesOf<double> : std::type_identity<OmniLanes<double>> {};
 
 }  // namespace limpid::detail
