@@ -78,8 +78,8 @@ struct Tustin {
   }
   void advance(Array& x, Array& v, const Array& f0, const Array& f1) const noexcept {
     const Array x0 = x, v0 = v, f = f0 + f1;
-    x = x_from_f * f + x_from_x * x0 + x_from_v * v0;
-    v = push * f + pull * x0 + stay * v0;
+    x = x_from_f * f + x_from_v * v0 + x_from_x * x0;
+    v = push * f + stay * v0 + pull * x0;
   }
 };
 
