@@ -100,6 +100,8 @@ TEST_CASE("impossible settings are refused with their values") {
   refused([](auto& s) { s.initial(0) = 100; }, "ProjectionRLS: initial: expected within lower and upper, got 100 30");
   refused([](auto& s) { s.initial_gain(1) = 0; },
           "ProjectionRLS: initial_gain: expected > 0 and <= gain_limit, got 1e+09 0");
+  refused([](auto& s) { s.initial_gain(1) = 1e-292; },  // min / epsilon = 2^-1022 / 2^-52 = 2^-970
+          "ProjectionRLS: initial_gain: expected >= 1.00208e-292 (the floor of the factors), got 1e+09 1e-292");
   refused([](auto& s) { s.gain_limit = 0; }, "ProjectionRLS: gain_limit: expected finite and > 0, got 0");
   refused([](auto& s) { s.forgetting = -1; }, "ProjectionRLS: forgetting: expected finite and >= 0, got -1");
   refused([](auto& s) { s.normalisation = 0.5; },

@@ -18,6 +18,8 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <sstream>
+#include <string>
 
 namespace limpid {
 
@@ -52,7 +54,8 @@ class ProjectionRLS {
     Theta lower = unset();          ///< corner of the box, in the parameters' units
     Theta upper = unset();          ///< the opposite corner, same units
     Theta initial = unset();        ///< theta_hat(0), within the box
-    Theta initial_gain = unset();   ///< diagonal of Gamma(0), > 0 and <= gain_limit, in parameter^2 / (N^2 s)
+    Theta initial_gain = unset();   ///< diagonal of Gamma(0), in parameter^2 / (N^2 s), <= gain_limit and > 0: at
+                                    ///< least the factors' floor, the smallest normal number over epsilon
     Scalar forgetting = Scalar{2};  ///< alpha, 1/s, >= 0
     Scalar normalisation = Scalar{1} / Scalar{100};         ///< nu, s, >= 0, with alpha nu < 1
     Scalar gain_limit = Scalar{5} * Scalar{1'000'000'000};  ///< rho_M, bound on lambda_max(Gamma), units of the gain
@@ -151,6 +154,12 @@ class ProjectionRLS {
     return are_finite(sum);
   }
 
+  static std::string at_least_the_floor() {
+    std::ostringstream text;
+    text << ">= " << Factorised::floor() << " (the floor of the factors)";
+    return text.str();
+  }
+
   static const Settings& checked(const Settings& s) {
     expect(is_finite(s.lower), "ProjectionRLS: lower", "finite", s.lower);
     expect(is_finite(s.upper) && (s.upper >= s.lower).all(), "ProjectionRLS: upper", "finite and >= lower", s.upper);
@@ -158,9 +167,10 @@ class ProjectionRLS {
            "ProjectionRLS: initial", "within lower and upper", s.initial);
     expect(is_finite(s.gain_limit) && s.gain_limit > Scalar{0}, "ProjectionRLS: gain_limit", "finite and > 0",
            s.gain_limit);
-    expect(is_finite(s.initial_gain) && (s.initial_gain >= Factorised::floor()).all() &&
-               (s.initial_gain <= s.gain_limit).all(),
+    expect(is_finite(s.initial_gain) && (s.initial_gain > Scalar{0}).all() && (s.initial_gain <= s.gain_limit).all(),
            "ProjectionRLS: initial_gain", "> 0 and <= gain_limit", s.initial_gain);
+    expect((s.initial_gain >= Factorised::floor()).all(), "ProjectionRLS: initial_gain", at_least_the_floor(),
+           s.initial_gain);
     expect(is_finite(s.forgetting) && s.forgetting >= Scalar{0}, "ProjectionRLS: forgetting", "finite and >= 0",
            s.forgetting);
     expect(is_finite(s.normalisation) && s.normalisation >= Scalar{0} && s.forgetting * s.normalisation < Scalar{1},
