@@ -69,6 +69,23 @@ TEST_CASE("what is not finite, or does not advance, changes nothing") {
   CHECK(rls.gain(0) == gain);
 }
 
+// D at its floor beside a U of -1e22 was a gain of 1976 rho_M.
+TEST_CASE("in float, a regressor that would take D below its floor changes nothing, and Gamma stays below its limit") {
+  using Float = ProjectionRLS<2, 1, float>;
+  const Float::Settings settings{
+      .lower = {200, 20}, .upper = {2000, 40}, .initial = {1100, 30}, .initial_gain = {1e9F, 8e6F}, .normalisation = 0};
+  Float rls(settings);
+  CHECK(rls.update(0.001F, {0, 1e15F}, Float::Vector::Zero()) == Status::at_bound);  // D_2 8e6 to 1e-27
+  CHECK(rls.update(0.001F, {0, 1e17F}, Float::Vector::Zero()) == Status::at_bound);  // to 1e-31, by its floor
+  const auto before = rls.factors(0);
+  CHECK(rls.update(0.001F, {1, 1e22F}, Float::Vector::Zero()) == Status::not_finite);  // to 1e-35, and U to -1e22
+  const auto [U, D] = rls.factors(0);
+  CHECK(U == before.U);
+  CHECK(D == before.D);
+  const double u = double(U(0, 1)), trace = double(D[0]) + double(D[1]) * (1 + u * u);  // of U D U', >= lambda_max
+  CHECK(trace <= double(settings.gain_limit));
+}
+
 TEST_CASE("an update asks for no memory") {
   Linear rls(linear_model());
   limpid::test::check_no_allocation([&] {
