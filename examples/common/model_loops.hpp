@@ -5,6 +5,7 @@
 #include "palpation_run.hpp"
 
 #include <limpid/environment/fixed.hpp>
+#include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/tangent_model.hpp>
 #include <limpid/environment/unilateral.hpp>
 #include <limpid/prediction/gains.hpp>

@@ -3,8 +3,10 @@
 #include "palpation_run.hpp"
 
 #include <limpid/environment/hunt_crossley.hpp>
+#include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/unilateral.hpp>
+#include <limpid/environment/virtual_tool.hpp>
 
 #include <memory>
 #include <stdexcept>
