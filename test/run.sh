@@ -1,7 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs what is missing (Debian, Ubuntu), builds limpid with its examples and benchmarks, and runs all tests.
-# --long: then a minute of each fuzz target (clang), and the stress programs for 1e8 ticks.
+# Installs what is missing (Debian, Ubuntu), builds limpid with its tests and examples, sees that most benchmarks
+# compile, and runs all tests.
+# --long: then sees that the other benchmarks compile, runs a minute of each fuzz target (clang), and the stress programs
+# for 1e8 ticks.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -28,12 +30,15 @@ export CTEST_PARALLEL_LEVEL CMAKE_BUILD_PARALLEL_LEVEL
 [ -n "$long" ] || exec cmake --workflow --preset dev
 
 cmake --workflow --preset dev
+cmake --build --preset dev --target limpid_heavy_bench_syntax
+
 .ci/install clang=clang++
 .ci/install "libclang-rt-dev=$(clang++ -print-runtime-dir)/libclang_rt.fuzzer-$(uname -m).a"
 cmake --preset dev -B build/fuzz -DCMAKE_CXX_COMPILER=clang++ -DLIMPID_BUILD_FUZZ=ON \
   -DLIMPID_BUILD_EXAMPLES=OFF -DLIMPID_BUILD_BENCH=OFF
 cmake --build build/fuzz --target limpid_fuzz
 ctest --test-dir build/fuzz --label-regex '^fuzz$' --output-on-failure --no-tests=error
+
 cmake --preset release
-cmake --build build/release --target stress
+cmake --build --preset release --target stress
 build/release/bench/stress
