@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/control/safety_limiter.hpp>
 #include <limpid/robot/omni.hpp>
+#include <limpid/robot/serial_chain.hpp>
 
 #include <support/no_allocation.hpp>
 #include <support/pendulum.hpp>
@@ -265,6 +266,28 @@ TEST_CASE("any robot can be limited; without rules of its own, by its joints") {
   for (int k = 1; k < 20; ++k) (void)limiter.limit(k * 1ms, {One(0.0), One(0.0)}, One(5.0));
   CHECK(limiter.limit(20ms, {One(0.0), One(0.0)}, One(5.0)).torque.value()[0] == 1.0);
   CHECK(limiter.limit(21ms, {One(0.95), One(0.0)}, One(5.0)).torque.value()[0] == 0.0);
+}
+
+TEST_CASE("a joint with a limit on one side only is watched on that side") {
+  using Chain = limpid::SerialChain<1>;
+  using One = Chain::Joints;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const One torque(0.1);
+  for (const double side : {-1.0, 1.0}) {
+    Chain::Settings chain{.links = {}};
+    chain.limits = {.lower = One(side < 0 ? -1 : -infinity),
+                    .upper = One(side > 0 ? 1 : infinity),
+                    .torque = One(1.0),
+                    .static_friction = One(0.0)};
+    SafetyLimiter<Chain> limiter({.robot = Chain(chain)});
+    (void)limiter.limit(0ms, {One(0.0), One(0.0)}, torque);
+    CHECK_FALSE(has(limiter.limit(1ms, {One(-50 * side), One(0.0)}, torque).status, Status::fault));
+    CHECK_FALSE(has(limiter.limit(2ms, {One(1.05 * side), One(0.0)}, torque).status, Status::fault));
+    const auto result = limiter.limit(3ms, {One(50 * side), One(0.0)}, torque);
+    CHECK(result.status == Status::fault);
+    CHECK(result.torque.value()[0] == 0);
+    CHECK(limiter.reason() == FaultReason::joint_out_of_range);
+  }
 }
 
 TEST_CASE("every reason has a sentence") {

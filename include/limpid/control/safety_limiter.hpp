@@ -144,7 +144,7 @@ class SafetyLimiter {
     if (!is_finite(wanted)) return FaultReason::torque_not_finite;
     if (started_ && (now < last_ || (now == last_ && !resumed_))) return FaultReason::clock_backwards;
     if (started_ && elapsed(now, last_) > settings_.longest_gap) return FaultReason::gap_too_long;
-    const auto overshoot = is.q.cwiseMax(upper_) - upper_ + lower_ - is.q.cwiseMin(lower_);
+    const auto overshoot = (is.q - upper_).cwiseMax(lower_ - is.q);  // of a limit that is infinite: -infinity
     if ((overshoot.array() > settings_.joint_overshoot).any()) return FaultReason::joint_out_of_range;
     if (has(upstream & settings_.upstream_faults, Status::disconnected)) return FaultReason::disconnected;
     if (has(upstream, settings_.upstream_faults)) return FaultReason::upstream;
