@@ -106,6 +106,26 @@ TEST_CASE("a command that is refused at a tick of another length leaves the stat
         tick(undisturbed, 5ms, good, good, good, none).force[0]);
 }
 
+TEST_CASE("a call that is refused for a velocity beyond its range leaves no trace of what was applied") {
+  using Observer = DisturbanceObserver<ButterworthQ<>>;
+  using Vector = Observer::Vector;
+  const Vector one(1.0), none(0.0), huge(1.7e308);
+  // the step-invariant form takes a velocity in one tick later
+  for (const auto form : {ObserverForm::tustin, ObserverForm::backward_euler}) {
+    CAPTURE(static_cast<int>(form));
+    Observer observer({.filter = {.cutoff = 50}, .mass = Vector(0.1), .damping = Vector(0.5), .form = form});
+    for (int k = 0; k <= 50; ++k) (void)tick(observer, k * 1ms, one, none, none, one);
+    Observer undisturbed = observer;
+    CHECK(tick(observer, 50ms + 400us, one, none, huge, Vector(3.0)).status == Status::not_finite);
+    for (const Time now : {Time(51ms), Time(52ms), Time(52ms + 300us)}) {
+      const auto after = tick(observer, now, one, none, none, one);
+      const auto without = tick(undisturbed, now, one, none, none, one);
+      CHECK(after.force[0] == without.force[0]);
+      CHECK(after.disturbance[0] == without.disturbance[0]);
+    }
+  }
+}
+
 TEST_CASE("a first call that is not finite does not start it, a clock that stands changes nothing") {
   auto observer = observer_of<ButterworthQ<>>(50), undisturbed = observer;
   using Vector = decltype(observer)::Vector;

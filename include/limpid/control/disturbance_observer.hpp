@@ -185,8 +185,16 @@ class DisturbanceObserver {
                                                     const Vector& hand, const Vector& velocity,
                                                     const Vector& applied) noexcept {
     const bool finite = is_finite(command) && is_finite(hand) && is_finite(velocity);
+    const States x = x_, ahead = ahead_;
+    const Duration last_length = length_;
     if (!finite || !set_step(length, applied)) return held(command, Status::not_finite);
-    return advance(all_states, now, lanes(command), lanes(hand), lanes(velocity), lanes(applied));
+    const Output output = advance(all_states, now, lanes(command), lanes(hand), lanes(velocity), lanes(applied));
+    if (output.status == Status::ok) [[likely]]
+      return output;
+    set_law(last_length, step_of(last_length));  // `applied` is not in x_ where the call that brought it is refused
+    x_ = x;
+    ahead_ = ahead;
+    return held(command, output.status);
   }
 
   [[nodiscard, gnu::noinline]] Output start(Time now, const Vector& command, const Vector& hand,
@@ -221,13 +229,23 @@ class DisturbanceObserver {
 
   // False, with nothing changed, where `applied` cannot be used.
   [[nodiscard]] bool set_step(Duration length, const Vector& applied) noexcept {
-    const Step step(equation_, form_, in_seconds<Scalar>(length) / tau_);
-    const auto at_applied = (step.Phi.lazyProduct(step.force.now) + step.force.before).eval();
+    const Step step = step_of(length);
     States x = x_;
     for (std::size_t i = 0; i < n; ++i) {
       x[i] += (now_[i] - step.force.now[static_cast<int>(i)]) * lanes(applied);  // the same state of the tick
       if (!is_finite(x[i])) return false;
     }
+    set_law(length, step);
+    keep(last_, x, Axis(hand_), Axis(velocity_));
+    return true;
+  }
+
+  [[nodiscard]] Step step_of(Duration length) const noexcept {
+    return Step(equation_, form_, in_seconds<Scalar>(length) / tau_);
+  }
+
+  void set_law(Duration length, const Step& step) noexcept {
+    const auto at_applied = (step.Phi.lazyProduct(step.force.now) + step.force.before).eval();
     length_ = length;
     const Axis momentum = lanes(momentum_), damping = lanes(damping_);
     for (std::size_t i = 0; i < n; ++i) {
@@ -239,10 +257,8 @@ class DisturbanceObserver {
       velocity_before_[i] = momentum * step.momentum.before[row] - damping * before_[i];
       for (std::size_t j = 0; j < n; ++j) Phi_[i][j] = step.Phi(row, static_cast<int>(j));
     }
-    keep(last_, x, Axis(hand_), Axis(velocity_));
     feedthrough_ = now_[n - 1];
     loop_ = Scalar{1} / (Scalar{1} - feedthrough_);
-    return true;
   }
 
   // For ticks of this length:
