@@ -325,4 +325,12 @@ TEST_CASE("settings that cannot serve are refused with their field") {
                        "SafetyLimiter: joint_overshoot: expected finite and >= 0, got -0.5", std::invalid_argument);
   CHECK_THROWS_WITH_AS(Limiter({.longest_gap = 0ms}), "SafetyLimiter: longest_gap: expected > 0 s, got 0 s",
                        std::invalid_argument);
+  // where the slew rate follows from the others it is not to blame
+  CHECK_THROWS_WITH_AS(Limiter({.torque_limit = Vector(1, 4e307, 1)}),
+                       "SafetyLimiter: torque_limit: expected small enough for its slew in 10 ms, got 1 4e+307 1",
+                       std::invalid_argument);
+  CHECK_NOTHROW(Limiter({.torque_limit = Vector(1, 4e307, 1), .slew = Vector(1, 1, 1)}));
+  CHECK_THROWS_WITH_AS(Limiter({.safety_factor = 1e308, .torque_limit = Vector(1e-20, 1, 1)}),
+                       "SafetyLimiter: safety_factor: expected small enough for torque_limit over it, got 1e+308",
+                       std::invalid_argument);
 }

@@ -74,7 +74,13 @@ class SafetyLimiter {
     expect(is_finite(Joints(most * Scalar(4))) && (most.array() > Scalar(0)).all(), "SafetyLimiter: torque_limit",
            "finite and > 0", most);
     allowed_ = most / settings.safety_factor;
+    expect((allowed_.array() > Scalar(0)).all(), "SafetyLimiter: safety_factor",
+           "small enough for torque_limit over it", settings.safety_factor);
     slew_ = settings.slew.value_or(Joints(allowed_ * Scalar(100)));
+    if (!settings.slew) {
+      expect(is_finite(Joints(slew_ * Scalar(4))), "SafetyLimiter: torque_limit", "small enough for its slew in 10 ms",
+             most);
+    }
     lower_ = limits.lower;
     upper_ = limits.upper;
     expect(is_finite(Joints(slew_ * Scalar(4))) && (slew_.array() > Scalar(0)).all(), "SafetyLimiter: slew",
