@@ -176,4 +176,11 @@ TEST_CASE("settings that cannot serve are refused, and the hand has no default")
                        std::invalid_argument);
   settings = {.filter = {.cutoff = 1e17}, .mass = {0.01, 0.02}, .damping = {0, 0}};  // 1 - q_0 would be 0
   CHECK_THROWS_AS(Observer{settings}, std::invalid_argument);
+  settings = {.filter = {.cutoff = 50}, .mass = {0.01, 0.02}, .damping = {0, 1.7e308}};
+  CHECK_THROWS_WITH_AS(Observer{settings},
+                       "DisturbanceObserver: damping: expected small enough to be squared, got 0 1.7e+308",
+                       std::invalid_argument);
+  settings = {.filter = {.cutoff = 50}, .mass = {0.01, 0.02}, .damping = {0, 0}, .form = static_cast<ObserverForm>(7)};
+  CHECK_THROWS_WITH_AS(Observer{settings}, "DisturbanceObserver: form: expected one of ObserverForm, got 7",
+                       std::invalid_argument);
 }

@@ -70,8 +70,9 @@ class DisturbanceObserver {
 
   struct Settings {
     Q filter{};
-    Vector mass = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());     ///< nominal m, kg, > 0
-    Vector damping = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());  ///< nominal b, N s/m, >= 0
+    Vector mass = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());  ///< nominal m, kg, > 0
+    /// Nominal b, N s/m, >= 0, its square finite.
+    Vector damping = Vector::Constant(std::numeric_limits<Scalar>::quiet_NaN());
     /// Tustin errs by 1.4e-4 for a Q of 50 Hz at 1 kHz, implicit Euler by 1.1e-2 and the step-invariant form by 0.1 to
     /// 0.2, in the same time (bench/time_error).
     ObserverForm form = ObserverForm::tustin;
@@ -97,6 +98,11 @@ class DisturbanceObserver {
            settings.mass);
     expect(is_finite(damping_) && (damping_ >= Scalar{0}).all(), "DisturbanceObserver: damping", "finite and >= 0",
            damping_);
+    expect(is_finite(Vector(damping_ * damping_)), "DisturbanceObserver: damping", "small enough to be squared",
+           damping_);
+    expect(
+        form_ == ObserverForm::tustin || form_ == ObserverForm::step_invariant || form_ == ObserverForm::backward_euler,
+        "DisturbanceObserver: form", "one of ObserverForm", static_cast<int>(form_));
     expect(longest_step_ > Duration::zero(), "DisturbanceObserver: longest_step", "> 0 s", longest_step_);
     tau_ = QFilterTraits<Q>::time_constant(settings.filter);
     expect(in_seconds<Scalar>(longest_step_) / tau_ * std::numeric_limits<Scalar>::epsilon() < Scalar(0.125),
