@@ -142,3 +142,24 @@ TEST_CASE("a force beyond the integrator's reach changes nothing") {
   CHECK(state.x[0] == 0);
   CHECK(tool.advance(2ms, One(1)).status == Status::ok);
 }
+
+// A rate of b/m = 3e4 1/s: half a second takes more steps than the integrator has.
+TEST_CASE("a tool that a pause has lost is stopped in the second call, and moves on from there") {
+  using Model = HuntCrossley<1>;
+  VirtualTool<Model> tool({.environment = Model({.exponent = 1.3}),
+                           .theta = {{1500.0, 0.0, 30.0}},
+                           .tool = {.mass = 1e-3, .damping = 0.1}});
+  for (int tick = 0; tick < 20; ++tick) REQUIRE(tool.advance(tick * 1ms, One(1)).status == Status::ok);
+  const auto before = tool.state();
+  const auto lost = tool.advance(519ms, One(1));
+  CHECK(lost.status == Status::limited);
+  CHECK(lost.value.x[0] == before.x[0]);
+  CHECK(lost.value.v[0] == before.v[0]);
+  const auto stopped = tool.advance(520ms, One(1));
+  CHECK(stopped.status == Status::limited);
+  CHECK(stopped.value.x[0] == before.x[0]);
+  CHECK(stopped.value.v[0] == 0);
+  // (3.29) at rest
+  CHECK(stopped.value.a[0] == doctest::Approx((1 - stopped.value.force[0]) / 1e-3).epsilon(1e-12));
+  for (int tick = 521; tick < 600; ++tick) REQUIRE(tool.advance(tick * 1ms, One(1)).status == Status::ok);
+}

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
 namespace limpid {
 
@@ -50,7 +51,7 @@ class VirtualTool {
 
   struct Output {
     State value;    ///< always finite
-    Status status;  ///< anything but `ok`: the call changed nothing
+    Status status;  ///< anything but `ok`: the call changed nothing, but for a tool that is stopped, see `advance`
   };
 
   /// @throws std::invalid_argument  where a setting cannot serve
@@ -73,15 +74,20 @@ class VirtualTool {
 
   /// Moves to `now`.
   /// @param F_h  the operator's force at `now`, N. The first call sets the clock and the force; the tool stays.
-  /// @return status  `not_finite` (F_h, or where it would lead), `clock_backwards`, `limited` (too many steps)
+  /// @return status  `not_finite` (F_h, or where it would lead), `clock_backwards`, `limited` (too many steps). Where
+  ///                 the integrator could not follow the motion in the last call either, such as after a pause of half
+  ///                 a second of a light tool, the tool is stopped where it was, and moves on from there, from `now`
   [[nodiscard]] Output advance(Time now, const Vector& F_h) noexcept {
     if (!is_finite(F_h)) return {state_, Status::not_finite};
     Vector x = state_.x, v = state_.v;
+    Status status = Status::ok;
     if (started_) {
       if (now <= now_) return {state_, Status::clock_backwards};
       const Vector& end = settings_.intersample == Intersample::linear ? F_h : F_h_;
-      const Status status = move(elapsed(now, now_), F_h_, end, x, v);
-      if (status != Status::ok) return {state_, status};
+      status = move(elapsed(now, now_), F_h_, end, x, v);
+      const bool again = std::exchange(lost_, status != Status::ok);
+      if (lost_ && !again) return {state_, status};
+      if (lost_) v.setZero();  // else what held it up would do so for ever
     }
     const State next = completed(x, v, F_h);
     if (!is_finite(next)) return {state_, Status::not_finite};
@@ -89,7 +95,7 @@ class VirtualTool {
     F_h_ = F_h;
     now_ = now;
     started_ = true;
-    return {state_, Status::ok};
+    return {state_, status};
   }
 
  private:
@@ -165,7 +171,7 @@ class VirtualTool {
   State state_;
   Vector F_h_ = Vector::Zero();  // at the last tick
   Time now_{};
-  bool started_ = false;
+  bool started_ = false, lost_ = false;  // lost: the last call could not follow the motion
   std::conditional_t<exact, ExactStep, Integrator> stepper_{};
 };
 
