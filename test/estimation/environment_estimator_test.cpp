@@ -135,6 +135,23 @@ TEST_CASE("samples that are not finite are not taken over, and time that does no
   }
 }
 
+TEST_CASE("a sample taken before the one that is held, or after the tick, is not taken over, and said so") {
+  Linear estimator(linear_model());
+  Linear::Law law(linear_model().law);
+  const auto newest = held(0.01, 0.02, 9, 100ms);
+  (void)estimator.update(100ms, newest);
+  CHECK(estimator.update(101ms, held(0.02, 0.5, 1, 50ms)) == Status::out_of_order);
+  CHECK(estimator.update(102ms, held(0.02, 0.5, 1, 102ms + 1ns)) == Status::out_of_order);
+  CHECK(estimator.update(103ms, held(0.02, 0.5, 1, Time::max())) == Status::out_of_order);
+  CHECK(estimator.update(104ms, newest) == Status::ok);
+  for (int k = 0; k < 4; ++k) (void)law.update(0.001, Pair(0.01, 0.02), One::Constant(9));
+  CHECK((estimator.estimate().theta_hat == law.theta()).all());
+
+  Linear fresh(linear_model());
+  CHECK(fresh.update(1ms, held(0.01, 0.02, 9, 2ms)) == Status::out_of_order);
+  CHECK(fresh.update(2ms, held(0.01, 0.02, 9, 2ms)) == Status::ok);
+}
+
 TEST_CASE("an update asks for no memory") {
   Linear estimator(linear_model());
   limpid::test::check_no_allocation([&] {

@@ -40,7 +40,8 @@ class EnvironmentEstimator {
   explicit EnvironmentEstimator(const Settings& settings) : environment_{settings.environment}, law_{settings.law} {}
 
   /// Brings the estimate to `now` and holds `sample` from now on.
-  /// @return  clock_backwards: nothing changed; no_sample; not_finite: the sample was not taken over; at_bound
+  /// @return  clock_backwards: nothing changed; no_sample; at_bound; not_finite, or out_of_order (taken before the one
+  ///          that is held, or after `now`): the sample was not taken over
   [[nodiscard]] Status update(Time now, const Held<ToolState<axes, Scalar>>& sample) noexcept {
     if (started_ && now <= now_) return Status::clock_backwards;
     Status status = Status::ok;
@@ -49,6 +50,7 @@ class EnvironmentEstimator {
     now_ = now;
     if (has(sample.status, Status::no_sample)) return status | when(!sampled_, Status::no_sample);
     if (sampled_ && sample.taken == taken_) return status;
+    if (sample.taken > now || (sampled_ && sample.taken < taken_)) return status | Status::out_of_order;
     return status | take(sample);
   }
 
