@@ -221,6 +221,37 @@ TEST_CASE("the multiples of the period go on before the start of the clock") {
   CHECK(signal.update(0ms, 5.0).value == 5);
 }
 
+TEST_CASE("at the ends of the clock's range samples keep their places") {
+  DelayedSampled<double> first({.period = 10ms, .delay = 20ms});
+  CHECK(first.update(Time::min(), 1.0).status == Status::no_sample);
+  CHECK(first.update(Time::min() + 20ms - 1ns, 2.0).status == Status::no_sample);
+  CHECK(first.update(Time::min() + 20ms, 3.0).value == 1);
+  CHECK(first.update(Time::min() + 20ms, 3.0).status == Status::clock_backwards);
+
+  DelayedSampled<double> last({.period = 10ms, .delay = 20ms});
+  (void)last.update(Time::max() - 50ms, 1.0);
+  CHECK(last.update(Time::max() - 30ms, 2.0).value == 1);
+  CHECK(last.update(Time::max() - 1ns, 3.0).value == 2);  // what is taken here arrives at the end at the earliest
+  CHECK(last.update(Time::max(), 4.0).fresh);
+
+  DelayedSampled<double> all({.period = 10ms, .delay = 0ms});
+  CHECK(all.update(Time::min(), 1.0).value == 1);
+  CHECK(all.update(Time::max(), 2.0).value == 2);
+
+  DelayedSampled<double> offered({.period = 10ms, .delay = 0ms});
+  (void)offered.update(Time::min());
+  CHECK(offered.offer({.value = 1, .taken = Time::min() + 1ns, .arrived = Time::min() + 1ns}) == Status::ok);
+  CHECK(offered.update(Time::min() + 1ms).status == Status::ok);
+  CHECK(has(offered.update(Time::max()).status, Status::stale));
+}
+
+TEST_CASE("a period as long as the clock's range takes one sample") {
+  DelayedSampled<double> signal({.period = Duration::max(), .delay = 0ms});
+  CHECK(signal.update(1ms, 1.0).value == 1);
+  CHECK(signal.update(2ms, 2.0).value == 1);
+  CHECK(signal.update(Time::max() - 1ns, 3.0).value == 1);
+}
+
 TEST_CASE("when samples stop coming, what is held is stale from the longest age on") {
   DelayedSampled<double> signal({.period = 10ms, .delay = 20ms});  // the delay and ten periods: 120 ms
   for (int tick = 0; tick <= 120; ++tick) REQUIRE(signal.update(tick * 1ms).status == Status::no_sample);

@@ -99,6 +99,16 @@ TEST_CASE("a float knows an instant after a year as well as at the start") {
   CHECK(history.at(year + 250us).value == 2.5F);
 }
 
+TEST_CASE("between the ends of the clock's range lies the straight line too") {
+  History<double> history;
+  (void)history.push(Time::min(), 0.0);
+  (void)history.push(Time::max(), 1.0);
+  CHECK(history.at(Time{0}).value == 0.5);  // to half of 2^-64
+  CHECK(history.at(Time::min() / 2).value == 0.25);
+  CHECK(history.at(Time::max() - 1ns).value == 1);
+  CHECK(history.at(Time::min() + 1ns).value < 1e-18);
+}
+
 TEST_CASE("motions are interpolated in all their parts") {
   History<Motion<2>> history;
   (void)history.push(0ms, {.x = {0, 1}, .v = {2, 3}, .a = {4, 5}});

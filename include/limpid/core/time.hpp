@@ -26,6 +26,24 @@ template <Real Scalar = double>
   return later < earlier ? Duration::min() : Duration::max();
 }
 
+/// `duration`, >= 0, after `time`; held at the end of the range.
+/// @realtime  no allocation, no throw
+[[nodiscard]] constexpr Time later(Time time, Duration duration) noexcept {
+  Duration::rep sum{};
+  return __builtin_add_overflow(time.count(), duration.count(), &sum) ? Time::max() : Time{sum};
+}
+
+/// Where `time` is on the way from `from`, 0, to `to`, 1; between them, and from < to.
+/// @realtime  no allocation for built-in scalars, no throw
+template <Real Scalar>
+[[nodiscard]] constexpr Scalar part_of_way(Time time, Time from, Time to) {
+  Duration::rep whole{};
+  if (!__builtin_sub_overflow(to.count(), from.count(), &whole)) [[likely]]
+    return static_cast<Scalar>((time - from).count()) / static_cast<Scalar>(whole);
+  // more than 292 years: a nanosecond does not count
+  return static_cast<Scalar>((time / 2 - from / 2).count()) / static_cast<Scalar>((to / 2 - from / 2).count());
+}
+
 /// The nearest duration to `seconds`, which must be finite and below 292 years.
 [[nodiscard]] inline Duration from_seconds(double seconds) { return Duration{std::llround(seconds * 1e9)}; }
 

@@ -93,7 +93,7 @@ class DelayedSampled {
   // Of samples taken in (now - delay, now] there are at most ceil(delay / period) + 1.
   static constexpr std::size_t slots = Capacity + 2;  // and the one that is held
 
-  static constexpr Duration longest = Duration::max() / 2;  // of an age, so that instants less an age do not overflow
+  static constexpr Duration longest = Duration::max() / 2;  // of an age
 
   static constexpr Duration delay_and_periods(Duration delay, Duration period, int periods) noexcept {
     if (delay < Duration::zero() || period < Duration::zero()) return longest;  // refused elsewhere
@@ -104,14 +104,13 @@ class DelayedSampled {
 
   // The first multiple of the period after `now`; without a division where no period was missed.
   [[nodiscard]] Time due_after(Time now) const noexcept {
-    const Time next = next_due_ + period_;
-    return started_ && now < next ? next : period_ * (floor_of_periods(now) + 1);
+    const Time next = later(next_due_, period_);
+    return started_ && now < next ? next : multiple_after(now);
   }
 
-  // duration's own division rounds towards zero
-  [[nodiscard]] Duration::rep floor_of_periods(Time t) const noexcept {
-    const Duration::rep quotient = t / period_;
-    return quotient * period_ > t ? quotient - 1 : quotient;
+  [[nodiscard]] Time multiple_after(Time t) const noexcept {
+    const Time multiple = period_ * (t / period_);  // between t and zero
+    return multiple > t ? multiple : later(multiple, period_);
   }
 
   Status take(Time now, const T& value) noexcept {
@@ -119,7 +118,7 @@ class DelayedSampled {
       lost_ = now;
       return Status::not_finite;
     }
-    return send(value, now, now + delay_);
+    return send(value, now, later(now, delay_));
   }
 
   // Keeps the ring in the order of arrival.
@@ -155,7 +154,7 @@ class DelayedSampled {
       }
     }
     const Time since = arrived_any() ? held().taken : first_tick_;
-    return seen(fresh, status | when(since < now - longest_age_ && since <= owed, Status::stale));
+    return seen(fresh, status | when(elapsed(now, since) > longest_age_ && since <= owed, Status::stale));
   }
 
   [[nodiscard]] const Held<T>& seen(bool fresh, Status status) noexcept {

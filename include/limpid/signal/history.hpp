@@ -59,7 +59,7 @@ class History {
     if (i == count_) return {value(count_ - 1), Status::out_of_history};
     if (time(i) == t) return {value(i), Status::ok};
     if (i == 0) return {value(0), Status::out_of_history};
-    const Scalar part = Scalar((t - time(i - 1)).count()) / Scalar((time(i) - time(i - 1)).count());
+    const auto part = part_of_way<Scalar>(t, time(i - 1), time(i));
     return {T(value(i - 1) * (Scalar(1) - part) + value(i) * part), Status::ok};
   }
 
