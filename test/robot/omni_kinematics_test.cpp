@@ -291,4 +291,31 @@ TEST_CASE("limits within which no joints are, are refused") {
   CHECK_THROWS_WITH_AS(OmniKinematics<>(robot, {Vector3d(0, 1, 1), Vector3d(1, 1, 1), 1.5}),
                        "OmniKinematics: elbow_sum: expected >= the sum of the lower limits, got 1.5",
                        std::invalid_argument);
+  CHECK_THROWS_WITH_AS(OmniKinematics<>(robot, {Vector3d(0, inf, 0), Vector3d(1, inf, 1), inf}),
+                       "OmniKinematics: lower: expected below infinity, got 0 inf 0", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(OmniKinematics<>(robot, {Vector3d(0, -inf, 0), Vector3d(1, -inf, 1), inf}),
+                       "OmniKinematics: upper: expected above -infinity, got 1 -inf 1", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(OmniKinematics<>(robot, {Vector3d(-1, -inf, 0), Vector3d(1, 1, 1), -inf}),
+                       "OmniKinematics: elbow_sum: expected above -infinity, got -inf", std::invalid_argument);
+}
+
+TEST_CASE(
+    "an arm whose lengths leave the range in their fourth power is refused, any other has the joints of its shape") {
+  for (const double link : {1e-160, 1e-80, 1e100, 1e160}) {
+    CAPTURE(link);
+    CHECK_THROWS_AS((void)OmniKinematics<>(Omni<>({.link2 = link, .link3 = 0.9 * link})), std::invalid_argument);
+  }
+  CHECK_THROWS_WITH_AS((void)OmniKinematics<>(Omni<>({.link2 = 1e100, .link3 = 1e100})),
+                       "OmniKinematics: links: expected lengths whose fourth power is finite, got 2e+100",
+                       std::invalid_argument);
+  const Vector3d x(0.16, 0.03, 0.02), v(0.1, -0.2, 0.3), a(1, 2, -3);
+  const auto usual = OmniKinematics<>(Omni<>()).inverse(x, v, a);
+  for (const double scale : {std::ldexp(1.0, 200), std::ldexp(1.0, -200)}) {  // lengths without rounding
+    const OmniKinematics<> scaled(Omni<>({.link2 = 0.135 * scale, .link3 = 0.130 * scale}));
+    const auto motion = scaled.inverse(x * scale, v * scale, a * scale);
+    CHECK(motion.status == Status::ok);
+    CHECK(motion.q.isApprox(usual.q, 1e-14));  // roundings in another order at most
+    CHECK(motion.qdot.isApprox(usual.qdot, 1e-14));
+    CHECK(motion.qddot.isApprox(usual.qddot, 1e-13));
+  }
 }

@@ -50,6 +50,10 @@ TEST_CASE("links and gravity that cannot be are refused with their value") {
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(Omni<>({.link3 = infinity}), "Omni: link3: expected finite and > 0, got inf",
                        std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Omni<>({.link2 = 1e160}), "Omni: link2: expected a length whose square is in range, got 1e+160",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Omni<>({.link3 = 1e-160}), "Omni: link3: expected a length whose square is in range, got 1e-160",
+                       std::invalid_argument);
   CHECK_THROWS_WITH_AS(Omni<>({.gravity = -1}), "Omni: gravity: expected finite and >= 0, got -1",
                        std::invalid_argument);
   CHECK_THROWS_AS(Omni<float>({.gravity = std::numeric_limits<float>::quiet_NaN()}), std::invalid_argument);

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <limits>
 
 namespace limpid {
 
@@ -32,11 +33,14 @@ class Omni {
     Scalar gravity = Scalar(981) / Scalar(100);  ///< g, m/s^2
   };
 
-  /// @throws std::invalid_argument  where a link is not positive, gravity is negative, or one is not finite
+  /// @throws std::invalid_argument  where a link is not positive, gravity is negative, or one is not finite; where a
+  ///                                square of a length leaves the scalar's range
   explicit Omni(const Settings& settings = Settings{})
       : links_{.l2 = settings.link2, .l3 = settings.link3, .g = settings.gravity} {
     expect(is_finite(links_.l2) && links_.l2 > Scalar(0), "Omni: link2", "finite and > 0", links_.l2);
     expect(is_finite(links_.l3) && links_.l3 > Scalar(0), "Omni: link3", "finite and > 0", links_.l3);
+    check_square("Omni: link2", links_.l2);
+    check_square("Omni: link3", links_.l3);
     expect(is_finite(links_.g) && links_.g >= Scalar(0), "Omni: gravity", "finite and >= 0", links_.g);
   }
 
@@ -75,6 +79,11 @@ class Omni {
   }
 
  private:
+  static void check_square(const char* name, const Scalar& length) {
+    expect(is_finite(Scalar(Scalar(4) * length * length)) && length * length >= std::numeric_limits<Scalar>::min(),
+           name, "a length whose square is in range", length);
+  }
+
   [[nodiscard]] static Scalar milli(int thousandths) noexcept { return Scalar(thousandths) / Scalar(1000); }
 
   typename OmniPose<Scalar>::Links links_;

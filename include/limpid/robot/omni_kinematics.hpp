@@ -45,11 +45,12 @@ class OmniKinematics {
     Scalar elbow_sum;     ///< largest q2 + q3, rad; eq. (5.4)
   };
 
+  /// @throws std::invalid_argument  where fourth powers of the links' lengths leave the scalar's range
   explicit OmniKinematics(const Omni<Scalar>& robot)
       : OmniKinematics(robot, {robot.limits().lower, robot.limits().upper, robot.elbow_sum_limit()}) {}
 
   /// @param limits  of an arm with stops of its own; infinite where there is none
-  /// @throws std::invalid_argument  where no joints are within the limits
+  /// @throws std::invalid_argument  as above, and where no joints are within the limits
   OmniKinematics(const Omni<Scalar>& robot, const Limits& limits)
       : limits_{limits},
         l2_{robot.link2()},
@@ -58,9 +59,19 @@ class OmniKinematics {
         inner_{innermost(l2_, l3_)},
         per_twice_l2l3_{1 / (2 * l2_ * l3_)},
         lanes_(l2_, l3_, limits.lower, limits.upper, limits.elbow_sum, near_axis(), near_straight()) {
+    using std::min;
+    const Scalar longest = outer_ * outer_, shortest = min(l2_, l3_) * min(l2_, l3_);
+    expect(is_finite(Scalar(longest * longest)), "OmniKinematics: links", "lengths whose fourth power is finite",
+           outer_);
+    expect(shortest * shortest > std::numeric_limits<Scalar>::min() / std::numeric_limits<Scalar>::epsilon(),
+           "OmniKinematics: links", "lengths whose fourth power is in range", min(l2_, l3_));
+    const Scalar infinity = std::numeric_limits<Scalar>::infinity();
     expect((limits.lower.array() <= limits.upper.array()).all(), "OmniKinematics: lower", "<= upper", limits.lower);
+    expect((limits.lower.array() < infinity).all(), "OmniKinematics: lower", "below infinity", limits.lower);
+    expect((limits.upper.array() > -infinity).all(), "OmniKinematics: upper", "above -infinity", limits.upper);
     expect(limits.elbow_sum >= limits.lower[1] + limits.lower[2], "OmniKinematics: elbow_sum",
            ">= the sum of the lower limits", limits.elbow_sum);
+    expect(limits.elbow_sum > -infinity, "OmniKinematics: elbow_sum", "above -infinity", limits.elbow_sum);
   }
 
   /// @param x     tip in the base frame, m
