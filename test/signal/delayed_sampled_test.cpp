@@ -164,6 +164,26 @@ TEST_CASE("when too many samples are on their way the earliest arrival is droppe
   CHECK(signal.update(40ms).value == 4);
 }
 
+TEST_CASE("samples stamped in the far future do not keep out those that come sooner") {
+  DelayedSampled<double, 4> signal({.period = 1ms, .delay = 3ms});
+  (void)signal.update(0ms);
+  const auto of_the_future = [&](int i) {
+    const Time far = Time::max() - Duration(i);
+    return signal.offer({.value = 99, .taken = far, .arrived = far});
+  };
+  for (int i = 0; i < 10; ++i) CHECK(of_the_future(i) == (i < 5 ? Status::ok : Status::overflow));
+  for (int i = 1; i < 100; ++i) {
+    CAPTURE(i);
+    (void)signal.offer({.value = double(i), .taken = i * 1ms, .arrived = i * 1ms + 3ms});
+    const auto& held = signal.update(i * 1ms);
+    if (i > 3) {
+      REQUIRE(held.fresh);
+      REQUIRE(held.value == i - 3);
+    }
+    if (i > 50) (void)of_the_future(i);
+  }
+}
+
 TEST_CASE("a value that is not finite makes a lost sample, and only where one is due") {
   DelayedSampled<double> signal({.period = 10ms, .delay = 0ms}, 0.5);
   CHECK(signal.update(0ms, not_a_number).status == (Status::not_finite | Status::no_sample));

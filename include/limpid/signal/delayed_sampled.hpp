@@ -78,7 +78,8 @@ class DelayedSampled {
   /// Sends a sample with its own clock on its way: it will be seen by the first tick at or after `sample.arrived`.
   /// @return  `not_finite`, `clock_backwards` (arrived before it was taken), `out_of_order` (not newer than what is
   ///          held, or a repetition of one on its way): the sample was dropped;
-  ///          `overflow`: the earliest arrival was dropped for it
+  ///          `overflow`: too many are on their way; the earliest arrival was dropped for it, or the latest, which may
+  ///          be the sample itself, where that is more than `longest_age` after the last tick
   [[nodiscard]] Status offer(const Sample<T>& sample) noexcept {
     if (!is_finite(sample.value)) return Status::not_finite;
     if (sample.arrived < sample.taken) return Status::clock_backwards;
@@ -86,7 +87,7 @@ class DelayedSampled {
     for (std::size_t i = 0; i < count_; ++i) {
       if (slot(i).taken == sample.taken) return Status::out_of_order;
     }
-    return send(sample.value, sample.taken, sample.arrived);
+    return send(sample.value, sample.taken, sample.arrived, now_);
   }
 
  private:
@@ -118,13 +119,22 @@ class DelayedSampled {
       lost_ = now;
       return Status::not_finite;
     }
-    return send(value, now, later(now, delay_));
+    return send(value, now, later(now, delay_), now);
   }
 
-  // Keeps the ring in the order of arrival.
-  Status send(const T& value, Time taken, Time arrived) noexcept {
+  // Keeps the ring in the order of arrival. What arrives too far ahead cannot keep out what is to come sooner.
+  Status send(const T& value, Time taken, Time arrived, Time now) noexcept {
     const bool full = count_ == slots - 1;
-    if (full) drop_front();
+    if (full) {
+      const Time latest = std::max(slot(count_ - 1).arrived, arrived);
+      if (!started_ || elapsed(latest, now) <= longest_age_) {
+        drop_front();
+      } else if (latest == arrived) {
+        return Status::overflow;
+      } else {
+        --count_;
+      }
+    }
     std::size_t i = count_++;
     for (; i > 0 && is_later(slot(i - 1), taken, arrived); --i) slot(i) = slot(i - 1);
     Held<T>& sample = slot(i);
