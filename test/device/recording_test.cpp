@@ -145,6 +145,11 @@ TEST_CASE("a missing or non-numeric cell is an error with line and column") {
     CHECK(error_of(cell + ',' + cell + "\n0,1\n1,2\n") == "press.csv: line 1, column 1: " + got);
     CHECK(error_of("0," + cell + "\n1,1\n2,2\n") == "press.csv: line 1, column 2: " + got);
   }
+  for (const std::string cell : {"+-1", "++1", "+"}) {
+    CAPTURE(cell);
+    CHECK(error_of("0," + cell + "\n1,2\n") ==
+          "press.csv: line 1, column 2: expected a finite number, got \"" + cell + '"');
+  }
   CHECK(error_of("time,force\n0,1\n") == "press.csv: expected two samples or more");
   CHECK(error_of("t,1\n0,1\n") == "press.csv: line 1, column 1: expected a finite number, got \"t\"");
 }
@@ -159,6 +164,15 @@ TEST_CASE("too few samples, and too long a file, are errors") {
   CHECK(error_of("") == "press.csv: expected two samples or more");
   CHECK(error_of("t,f\n1,2\n") == "press.csv: expected two samples or more");
   CHECK(error_of("0,1\n1e300,2\n") == "press.csv: expected less than a year of samples");
+}
+
+TEST_CASE("forces so large that what runs between them has no number are an error") {
+  const std::string refused = "press.csv: expected forces whose slopes are finite";
+  CHECK(error_of("0,0\n1,1e308\n") == refused);
+  CHECK(error_of("0,0\n1,1e308\n2,0\n") == refused);
+  CHECK(error_of("0,-1e308\n1,1e308\n") == refused);
+  CHECK(error_of("0,1e308\n1,1e308\n") == "no error");
+  CHECK(read("0,0\n2,1e300\n").at(1s) == 5e299);
 }
 
 TEST_CASE("a file that cannot be read is an error with its name") {

@@ -61,8 +61,7 @@ class Recording {
     for (double& time : recording.times_) time -= start;
     if (!(recording.times_.back() < longest)) throw std::runtime_error(name + ": expected less than a year of samples");
     recording.find_slopes();
-    if (!std::all_of(recording.slopes_.begin(), recording.slopes_.end(),
-                     [](double slope) { return std::isfinite(slope); })) {
+    if (!recording.is_finite_between()) {
       throw std::runtime_error(name + ": expected forces whose slopes are finite");
     }
     return recording;
@@ -79,10 +78,8 @@ class Recording {
     const auto after = std::upper_bound(times_.begin(), times_.end(), t);
     const auto k = static_cast<std::size_t>(after - times_.begin()) - 1;
     const double h = times_[k + 1] - times_[k], s = (t - times_[k]) / h;
-    const double rise = (forces_[k + 1] - forces_[k]) / h;
-    const double quadratic = 3 * rise - 2 * slopes_[k] - slopes_[k + 1];
-    const double cubic = slopes_[k] + slopes_[k + 1] - 2 * rise;
-    return forces_[k] + h * s * (slopes_[k] + s * (quadratic + s * cubic));
+    const Cubic cubic = cubic_after(k);
+    return forces_[k] + h * s * (slopes_[k] + s * (cubic.second + s * cubic.third));
   }
 
   /// From the first sample to the last.
@@ -94,6 +91,10 @@ class Recording {
   struct Place {
     const std::string& name;
     std::size_t line;
+  };
+
+  struct Cubic {
+    double second, third;  // of the way through the interval, N/s
   };
 
   static constexpr double longest = 366 * 86400.0;  // s: a nanosecond count and a double still resolve each other
@@ -128,7 +129,7 @@ class Recording {
   }
 
   static bool is_number(std::string_view cell, double& value) {
-    if (!cell.empty() && cell.front() == '+') cell.remove_prefix(1);
+    if (cell.starts_with('+') && !cell.starts_with("+-")) cell.remove_prefix(1);
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     return error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(value);
   }
@@ -167,7 +168,23 @@ class Recording {
     slopes_[n - 1] = end_slope(n - 1, n - 2, n - 3);
   }
 
-  [[nodiscard]] double secant(std::size_t a, std::size_t b) const {
+  [[nodiscard]] Cubic cubic_after(std::size_t k) const noexcept {
+    const double rise = secant(k, k + 1);
+    return {.second = 3 * rise - 2 * slopes_[k] - slopes_[k + 1], .third = slopes_[k] + slopes_[k + 1] - 2 * rise};
+  }
+
+  // Whether no sum of `at` can overflow.
+  [[nodiscard]] bool is_finite_between() const noexcept {
+    for (std::size_t k = 0; k + 1 < times_.size(); ++k) {
+      const Cubic cubic = cubic_after(k);
+      const double h = times_[k + 1] - times_[k];
+      const double most = std::abs(slopes_[k]) + std::abs(cubic.second) + std::abs(cubic.third);
+      if (!std::isfinite(std::abs(slopes_[k + 1]) + std::abs(forces_[k]) + most * std::max(h, 1.0))) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] double secant(std::size_t a, std::size_t b) const noexcept {
     return (forces_[b] - forces_[a]) / (times_[b] - times_[a]);
   }
 
