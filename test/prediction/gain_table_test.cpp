@@ -105,6 +105,18 @@ TEST_CASE("a table is updated without allocation, and by default gives no feedba
   CHECK((none.row().L1 == 0).all());
 }
 
+TEST_CASE("a table asked for what is not finite, or back in time, keeps its gain") {
+  GainTable<1> gain(table());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(gain.update(0.0, rho(nan, 16)) == Status::not_finite);
+  CHECK((gain.row().L1 == 0).all());
+  CHECK(gain.update(0.0, rho(256, 16)) == Status::ok);
+  CHECK(gain.update(0.125, rho(512, nan)) == Status::not_finite);
+  CHECK(gain.update(-0.125, rho(512, 32)) == Status::clock_backwards);
+  CHECK(gain.row().L1[0] == -8);
+  CHECK(gain.row().L2[0] == 1);
+}
+
 TEST_CASE("impossible tables are refused") {
   auto falling = table();
   falling.stiffness_knots = {512, 256, 1024};
@@ -120,7 +132,10 @@ TEST_CASE("impossible tables are refused") {
                        std::invalid_argument);
   auto not_finite = table();
   not_finite.L[0].L1.setConstant(std::numeric_limits<double>::quiet_NaN());
-  CHECK_THROWS_AS(GainTable<1>{not_finite}, std::invalid_argument);
+  CHECK_THROWS_WITH_AS(GainTable<1>{not_finite}, "GainTable: L[0].L1: expected finite, got nan", std::invalid_argument);
+  not_finite = table();
+  not_finite.L[3].L2.setConstant(std::numeric_limits<double>::infinity());
+  CHECK_THROWS_WITH_AS(GainTable<1>{not_finite}, "GainTable: L[3].L2: expected finite, got inf", std::invalid_argument);
   auto still = table();
   still.rate.damping.setZero();
   CHECK_THROWS_WITH_AS(GainTable<1>{still}, "GainTable: rate damping: expected > 0, got 0", std::invalid_argument);

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace limpid {
@@ -47,16 +48,18 @@ class GainTable {
     detail::check_knots<Scalar>("GainTable: damping_knots", s_.damping_knots);
     expect(s_.L.size() == s_.stiffness_knots.size() * s_.damping_knots.size(), "GainTable: L", "a row for each knot",
            s_.L.size());
-    for (const Row& row : s_.L) expect(is_finite(row.L1) && is_finite(row.L2), "GainTable: L", "finite", row.L1);
+    for (std::size_t i = 0; i < s_.L.size(); ++i) detail::check_row("GainTable: L[" + std::to_string(i) + "]", s_.L[i]);
     Held::check_rate("GainTable", s_.rate);
   }
 
   /// Schedules by `rho`, `dt` seconds after the last time (the first time without limit of rate).
-  /// @return  at_bound where the box or the rate held rho back
+  /// @return  at_bound where the box or the rate held rho back; not_finite (dt or rho) or clock_backwards (dt < 0):
+  ///          nothing changed
   Status update(const Scalar& dt, const Rho& rho) noexcept {
     const Side lower{s_.stiffness_knots.front(), s_.damping_knots.front()};
     const Side upper{s_.stiffness_knots.back(), s_.damping_knots.back()};
     const Status status = rho_.update(dt, rho, lower, upper, s_.rate);
+    if (has(status, Status::not_finite | Status::clock_backwards)) return status;
     for (int axis = 0; axis < Axes; ++axis) interpolate(axis);
     return status;
   }

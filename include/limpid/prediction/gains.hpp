@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include <concepts>
-#include <string_view>
+#include <string>
 
 namespace limpid {
 
@@ -33,6 +33,17 @@ struct GainRow {
     return L1 * x_error + L2 * v_error;
   }
 };
+
+namespace detail {
+
+/// @throws std::invalid_argument  where an entry is not finite
+template <int Axes, Real Scalar>
+void check_row(const std::string& name, const GainRow<Axes, Scalar>& row) {
+  expect(is_finite(row.L1), name + ".L1", "finite", row.L1);
+  expect(is_finite(row.L2), name + ".L2", "finite", row.L2);
+}
+
+}  // namespace detail
 
 /// The same L everywhere, designed by Theorem 2 or 3.
 /// @realtime  no allocation, no throw
@@ -82,20 +93,25 @@ class ScheduledGain {
   ScheduledGain() : ScheduledGain(Settings{}) {}  ///< no feedback
   explicit ScheduledGain(const Settings& settings) noexcept : s_{settings} {}
 
-  /// @throws std::invalid_argument  where a gain is not finite, the box is empty or a rate not positive
+  /// @throws std::invalid_argument  where a gain is not finite, the box is empty, L(rho) not finite all over it, or a
+  ///                                rate not positive
   void check() const {
-    for (const Row* row : {&s_.L0, &s_.L1, &s_.L2}) {
-      expect(is_finite(row->L1) && is_finite(row->L2), "ScheduledGain: L0, L1, L2", "finite", row->L1);
-    }
-    check_box("ScheduledGain: lower, upper stiffness", s_.lower.stiffness, s_.upper.stiffness);
-    check_box("ScheduledGain: lower, upper damping", s_.lower.damping, s_.upper.damping);
+    detail::check_row("ScheduledGain: L0", s_.L0);
+    detail::check_row("ScheduledGain: L1", s_.L1);
+    detail::check_row("ScheduledGain: L2", s_.L2);
+    check_box("stiffness", s_.lower.stiffness, s_.upper.stiffness);
+    check_box("damping", s_.lower.damping, s_.upper.damping);
+    check_sum("L1", &Row::L1);
+    check_sum("L2", &Row::L2);
     Held::check_rate("ScheduledGain", s_.rate);
   }
 
   /// Schedules by `rho`, `dt` seconds after the last time (the first time without limit of rate).
-  /// @return  at_bound where the box or the rate held rho back
+  /// @return  at_bound where the box or the rate held rho back; not_finite (dt or rho) or clock_backwards (dt < 0):
+  ///          nothing changed
   Status update(const Scalar& dt, const Rho& rho) noexcept {
     const Status status = rho_.update(dt, rho, s_.lower, s_.upper, s_.rate);
+    if (has(status, Status::not_finite | Status::clock_backwards)) return status;
     row_.L1 = s_.L0.L1 + s_.L1.L1 * rho_.stiffness() + s_.L2.L1 * rho_.damping();
     row_.L2 = s_.L0.L2 + s_.L1.L2 * rho_.stiffness() + s_.L2.L2 * rho_.damping();
     return status;
@@ -107,8 +123,16 @@ class ScheduledGain {
   using Vector = Eigen::Array<Scalar, Axes, 1>;
   using Held = detail::HeldTangents<Axes, Scalar>;
 
-  static void check_box(std::string_view name, const Vector& lower, const Vector& upper) {
-    expect(is_finite(lower) && is_finite(upper) && (lower <= upper).all(), name, "finite and lower <= upper", lower);
+  static void check_box(const std::string& side, const Vector& lower, const Vector& upper) {
+    expect(is_finite(lower), "ScheduledGain: lower " + side, "finite", lower);
+    expect(is_finite(upper) && (lower <= upper).all(), "ScheduledGain: upper " + side, "finite and >= lower", upper);
+  }
+
+  void check_sum(const std::string& entry, Vector Row::*of) const {
+    const Vector k = s_.lower.stiffness.abs().max(s_.upper.stiffness.abs());
+    const Vector b = s_.lower.damping.abs().max(s_.upper.damping.abs());
+    const Vector most = (s_.L0.*of).abs() + (s_.L1.*of).abs() * k + (s_.L2.*of).abs() * b;
+    expect(is_finite(most), "ScheduledGain: L0, L1, L2", "a finite " + entry + " all over the box", most);
   }
 
   Settings s_;

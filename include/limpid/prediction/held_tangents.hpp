@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limpid/core/expect.hpp>
+#include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/environment/environment.hpp>
@@ -35,9 +36,12 @@ class HeldTangents {
 
   /// Follows `rho`, `dt` seconds after the last time (the first time without limit of rate).
   /// @param lower, upper  of the box: stiffness, damping; a Vector or one Scalar for all axes
-  /// @return  at_bound where the box or the rate held rho back
+  /// @return  at_bound where the box or the rate held rho back; not_finite (dt or rho) or clock_backwards (dt < 0):
+  ///          nothing changed
   template <typename Side>
   Status update(const Scalar& dt, const Rho& rho, const Side& lower, const Side& upper, const Rho& rate) noexcept {
+    if (!(dt >= Scalar{0}) || !are_finite(rho.stiffness, rho.damping)) [[unlikely]]
+      return dt < Scalar{0} ? Status::clock_backwards : Status::not_finite;
     const bool stiffness_held = move(k_, rho.stiffness, lower.stiffness, upper.stiffness, rate.stiffness * dt);
     const bool damping_held = move(b_, rho.damping, lower.damping, upper.damping, rate.damping * dt);
     started_ = true;
@@ -51,7 +55,11 @@ class HeldTangents {
   template <typename Bound>
   bool move(Vector& from, const Vector& to, const Bound& lower, const Bound& upper, const Vector& most) const noexcept {
     Vector target = to.max(lower).min(upper);
-    if (started_) target = target.max(from - most).min(from + most);
+    if (started_) {  // by comparisons that a rate without limit over no time, NaN, does not pass
+      const Vector least = from - most, largest = from + most;
+      target = (target < least).select(least, target);
+      target = (target > largest).select(largest, target);
+    }
     from = target;
     return (target != to).any();
   }
