@@ -25,6 +25,18 @@ TEST_CASE("what no tool can have is refused with its value") {
                        "Tool: anchor: expected finite, got 0.5 nan", std::invalid_argument);
 }
 
+TEST_CASE("what is too large for so small a mass is refused by its own name") {
+  CHECK_THROWS_WITH_AS(Tool<1>({.mass = 1e-310}).check(), "Tool: mass: expected a finite 1/mass, got 1e-310",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Tool<1>({.mass = 0.1, .damping = 1.7e308}).check(),
+                       "Tool: damping: expected finite over the mass, got 1.7e+308", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Tool<1>({.mass = 0.1, .stiffness = 1.7e308}).check(),
+                       "Tool: stiffness: expected finite over the mass, got 1.7e+308", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Tool<2>({.mass = 1, .stiffness = 1e10, .anchor = {0, 1e300}}).check(),
+                       "Tool: anchor: expected a finite force of the spring over the mass, got 0 1e+300",
+                       std::invalid_argument);
+}
+
 TEST_CASE("motions add and scale part by part") {
   const Motion<2> a{.x = {1, 2}, .v = {3, 4}, .a = {5, 6}}, b{.x = {1, 1}, .v = {1, 1}, .a = {1, 1}};
   const Motion<2> c = (a - b) * 2.0 + 0.5 * b;

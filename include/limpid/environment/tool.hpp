@@ -27,12 +27,17 @@ struct Tool {
   Scalar stiffness{0};             ///< k_t, N/m, >= 0
   Vector anchor = Vector::Zero();  ///< where the tool's spring is relaxed, m
 
-  /// @throws std::invalid_argument  where a field cannot be a tool's
+  /// @throws std::invalid_argument  where a field cannot be a tool's, or is too large for so small a mass
   void check() const {
     expect(is_finite(mass) && mass > Scalar{0}, "Tool: mass", "finite and > 0", mass);
     expect(is_finite(damping) && damping >= Scalar{0}, "Tool: damping", "finite and >= 0", damping);
     expect(is_finite(stiffness) && stiffness >= Scalar{0}, "Tool: stiffness", "finite and >= 0", stiffness);
     expect(is_finite(anchor), "Tool: anchor", "finite", anchor);
+    expect(is_finite(Scalar(Scalar{1} / mass)), "Tool: mass", "a finite 1/mass", mass);
+    expect(is_finite(Scalar(damping / mass)), "Tool: damping", "finite over the mass", damping);
+    expect(is_finite(Scalar(stiffness / mass)), "Tool: stiffness", "finite over the mass", stiffness);
+    expect(is_finite(Vector(stiffness * anchor / mass)), "Tool: anchor", "a finite force of the spring over the mass",
+           anchor);
   }
 };
 
