@@ -120,6 +120,9 @@ TEST_CASE("impossible settings are refused with their values") {
   refused([](auto& s) { s.initial_gain(1) = 1e-292; },  // min / epsilon = 2^-1022 / 2^-52 = 2^-970
           "ProjectionRLS: initial_gain: expected >= 1.00208e-292 (the floor of the factors), got 1e+09 1e-292");
   refused([](auto& s) { s.gain_limit = 0; }, "ProjectionRLS: gain_limit: expected finite and > 0, got 0");
+  // Gamma's trace is up to N rho_M, and its forgetting comes on top
+  refused([](auto& s) { s.gain_limit = 1e308; },
+          "ProjectionRLS: gain_limit: expected so far from the largest number that N gains add up, got 1e+308");
   refused([](auto& s) { s.forgetting = -1; }, "ProjectionRLS: forgetting: expected finite and >= 0, got -1");
   refused([](auto& s) { s.normalisation = 0.5; },
           "ProjectionRLS: normalisation: expected finite, >= 0 and < 1 / forgetting (else no excitation bounds the "

@@ -167,6 +167,8 @@ class ProjectionRLS {
            "ProjectionRLS: initial", "within lower and upper", s.initial);
     expect(is_finite(s.gain_limit) && s.gain_limit > Scalar{0}, "ProjectionRLS: gain_limit", "finite and > 0",
            s.gain_limit);
+    expect(is_finite(Scalar(Scalar{4 * N} * s.gain_limit)), "ProjectionRLS: gain_limit",
+           "so far from the largest number that N gains add up", s.gain_limit);
     expect(is_finite(s.initial_gain) && (s.initial_gain > Scalar{0}).all() && (s.initial_gain <= s.gain_limit).all(),
            "ProjectionRLS: initial_gain", "> 0 and <= gain_limit", s.initial_gain);
     expect((s.initial_gain >= Factorised::floor()).all(), "ProjectionRLS: initial_gain", at_least_the_floor(),
