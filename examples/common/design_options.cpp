@@ -245,7 +245,8 @@ DesignOptions parse_design_options(int argc, const char* const* argv) {
       const std::string refusal = refusal_of_output(std::string(output) == "--json" ? typed.json : typed.plot);
       if (!refusal.empty()) refuse(output, refusal);
     }
-    if (!typed.json.empty() && typed.json == typed.plot) refuse("--json, --plot", "different files", typed.json);
+    if (!typed.json.empty() && !typed.plot.empty() && is_same_file(typed.json, typed.plot))
+      refuse("--json, --plot", "different files", typed.json);
   } catch (const CLI::ParseError& error) {
     options.exit_code = app.exit(error);
     return options;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace limpid::examples {
 
@@ -21,6 +22,15 @@ namespace limpid::examples {
   }
   if (!std::ofstream(path, std::ios::app)) return "accepts a path that can be written, got " + path;
   return {};
+}
+
+/// Whether two paths lead to one file, which need not be there yet.
+[[nodiscard]] inline bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code none, error;
+  if (std::filesystem::equivalent(a, b, none)) return true;
+  const auto canonical = [&](const std::string& path) { return std::filesystem::weakly_canonical(path, error); };
+  const auto first = canonical(a), second = canonical(b);
+  return error ? a == b : first == second;
 }
 
 /// @throws std::runtime_error  where not all of `text` could be written

@@ -137,7 +137,7 @@ void refuse_strangers(const CLI::App& app, const Typed& typed) {
   std::vector<std::string> outputs;
   for (const std::string& path : {typed.json, typed.csv, typed.plot}) {
     if (path.empty()) continue;
-    if (std::count(outputs.begin(), outputs.end(), path) > 0) {
+    if (std::any_of(outputs.begin(), outputs.end(), [&](const auto& other) { return is_same_file(path, other); })) {
       refuse("--json, --csv, --plot", "accept different files, got " + path + " twice");
     }
     outputs.push_back(path);

@@ -64,6 +64,19 @@ TEST_CASE("palpate refuses options that contradict each other") {
   refused("--operator hand 0.3,5,300 --playback", "--playback");
 }
 
+TEST_CASE("palpate refuses to write two outputs to one file, however its path is spelt") {
+  const auto folder = std::filesystem::temp_directory_path() / "limpid_one_file";
+  std::filesystem::create_directory(folder);
+  const std::string path = (folder / "a").string();
+  for (const std::string& other :
+       {path, (folder / "." / "a").string(), (folder / ".." / "limpid_one_file" / "a").string()}) {
+    refused("--json " + path + " --csv " + other, "--csv");
+  }
+  std::filesystem::create_symlink(path, folder / "b");
+  refused("--csv " + path + " --plot " + (folder / "b").string(), "--plot");
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("palpate says where a recording is broken") {
   const auto path = std::filesystem::temp_directory_path() / "limpid_broken_recording.csv";
   std::ofstream(path) << "time,force\n0,1\n0.02,two\n";
