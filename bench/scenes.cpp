@@ -31,7 +31,11 @@ double median_of_turns(Scene& scene) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char**) {
+  if (argc > 1) {
+    std::fputs("scenes: takes no arguments\n", stderr);
+    return 2;
+  }
   std::printf("%-48s %8s %14s %8s\n", "the whole tick, a sample every 16 ms", "bytes", "instructions", "ns");
   for (Scene& scene : all_scenes()) {
     const double ns = median_of_turns(scene);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// stress [--ticks N] [--seed S] [--only REGEX]: every scenario of test/stress for N ticks in all, 1e8 by default. Ends
-// at the first invariant that breaks, with the smallest case found that breaks it.
+// stress [--ticks N] [--seed S] [--only REGEX]: every scenario of test/stress for N >= 1 ticks in all, 1e8 by default.
+// Ends at the first invariant that breaks, with the smallest case found that breaks it.
 #include "stress/parts.hpp"
 
 #include <stress/shrink.hpp>
@@ -39,7 +39,7 @@ std::optional<Options> options_of(int argc, const char* const* argv) {
     const auto count = count_of(argv[i + 1]);
     if (option == "--only") {
       options.only = argv[i + 1];
-    } else if (option == "--ticks" && count) {
+    } else if (option == "--ticks" && count && *count > 0) {
       options.ticks = *count;
     } else if (option == "--seed" && count) {
       options.seed = *count;
@@ -95,7 +95,7 @@ int run_all(const Options& options) {
 int main(int argc, char** argv) {
   const auto options = options_of(argc, argv);
   if (!options) {
-    std::fputs("stress [--ticks N] [--seed S] [--only REGEX]\n", stderr);
+    std::fputs("stress [--ticks N] [--seed S] [--only REGEX], N >= 1\n", stderr);
     return 2;
   }
   try {
