@@ -27,6 +27,7 @@ enum class Status : std::uint32_t {
   fault = 1U << 12,            ///< a latched fault: zero torque until a deliberate reset
   disconnected = 1U << 13,     ///< the device does not answer
   stale = 1U << 14,            ///< the newest data are older than allowed
+  coarse = 1U << 15,           ///< a step too long for what it follows: taken damped, of order 1
 };
 
 [[nodiscard]] constexpr Status operator|(Status a, Status b) noexcept {
@@ -49,7 +50,7 @@ constexpr Status& operator|=(Status& a, Status b) noexcept { return a = a | b; }
 
 /// "not_finite, singular", or "ok"; for people, not for the loop (allocates).
 [[nodiscard]] inline std::string describe(Status status) {
-  constexpr std::array<std::pair<Status, std::string_view>, 15> names{{
+  constexpr std::array<std::pair<Status, std::string_view>, 16> names{{
       {Status::not_finite, "not_finite"},
       {Status::clock_backwards, "clock_backwards"},
       {Status::no_sample, "no_sample"},
@@ -65,6 +66,7 @@ constexpr Status& operator|=(Status& a, Status b) noexcept { return a = a | b; }
       {Status::fault, "fault"},
       {Status::disconnected, "disconnected"},
       {Status::stale, "stale"},
+      {Status::coarse, "coarse"},
   }};
   std::string text;
   for (const auto& [bit, name] : names) {

@@ -15,6 +15,7 @@
 #include <limpid/estimation/environment_estimate.hpp>
 #include <limpid/prediction/gains.hpp>
 #include <limpid/prediction/lane_motion.hpp>
+#include <limpid/prediction/nonlinear_step.hpp>
 #include <limpid/prediction/predictor.hpp>
 #include <limpid/signal/history.hpp>
 #include <limpid/signal/intersample.hpp>
@@ -42,10 +43,12 @@ struct Estimated {};
 ///
 /// `advance` integrates from the last tick to `now` with what was held then; only at its end a sample observed for this
 /// tick and a new estimate are taken over, and from then on held. For a linear decoupled environment the step is exact
-/// for the stated law of F_h between ticks. For another one it is exact but for the remainder of the force beside its
-/// tangent at the start, taken as linear in time over the step and found by two corrections: error of order dt^3 in a
-/// step in which the force is smooth. Where it is not, as in `Unilateral` where contact opens or closes, that step is
-/// of lower order.
+/// for the stated law of F_h between ticks. For another one the remainder of the force beside its tangent at the start
+/// is matched in its moments by one correction, and steps in which the tangent changes much are taken in up to 32
+/// parts (`detail::NonlinearStep`): of order 3 where the force is smooth, its error going as dt^3. Where it is not, as
+/// in `Unilateral` where contact opens or closes, a step is of lower order. `coarse` says that parts were too long
+/// still, as where sqrt(stiffness/mass) dt is above 32; they are of order 1, and damped. Axes that feel each other are
+/// followed to order 2, in one step at any length: there a long dt beside a stiff coupling may diverge.
 ///
 /// Absurd inputs leave no lasting trace. A motion, a model or a force whose squares are not finite is not taken over,
 /// nor a sample for which L e_zd / m_t is not finite: not_finite says so. A step that leads to such a motion is not
@@ -59,7 +62,9 @@ struct Estimated {};
 /// @tparam Parameters  `Known`: no `use`; `Estimated`
 /// @tparam Gain        `ConstantGain` or `ScheduledGain`
 /// @tparam Capacity    ticks remembered, a power of two
-/// @realtime           no allocation, no throw; some 150 flops an axis when parameters or dt changed, else 30
+/// @realtime           no allocation, no throw; some 150 flops an axis when parameters or dt changed, else 30. Of an
+///                     environment that is not linear two responses a tick, and at most some 1000 in a tick that is
+///                     stiff and long
 template <Environment Env,
           typename ToolModel = Tool<EnvironmentTraits<Env>::axes, typename EnvironmentTraits<Env>::Scalar>,
           typename Parameters = Estimated,
@@ -164,11 +169,8 @@ class ModelPredictor {
   // Else the model says it all.
   static constexpr bool needs_theta = !exact || Gain::scheduled;
 
-  // The coefficients of x'' + beta x' + kappa x = (F_h + L e) / m + constant; about a point, where the environment is
-  // not linear.
-  struct Model {
-    Array kappa, beta, constant;
-  };
+  // Of x'' + beta x' + kappa x = (F_h + L e) / m + constant.
+  using Model = detail::LaneModel<axes, Scalar>;
 
   [[nodiscard]] Prediction<axes, Scalar> advanced(Time now, const Array& F_h) noexcept {
     const Array pushed = F_h * per_mass_;
@@ -176,13 +178,12 @@ class ModelPredictor {
       return untouched(are_finite(pushed * pushed) ? Status::clock_backwards : Status::not_finite);
     const Scalar dt = started_ ? in_seconds<Scalar>(elapsed(now, now_)) : Scalar{0};
     State next = motion_;
-    if (started_) step(next, dt, pushed);
-    Status status = Status::ok;
+    Status status = started_ ? step(next, dt, pushed) : Status::ok;
     if (!are_finite(next.x * next.x, next.v * next.v, pushed * pushed)) [[unlikely]] {
       if (!are_finite(pushed * pushed)) return untouched(Status::not_finite);
       next = motion_;
       error_ = {};
-      status = Status::not_finite;
+      status |= Status::not_finite;
     }
     if (!started_) begin_ = now;
     started_ = true;
@@ -310,31 +311,39 @@ class ModelPredictor {
   }
 
   // From the last tick to the next one, dt seconds later, at whose end F_h / m is `pushed`.
-  void step(State& to, const Scalar& dt, const Array& pushed) noexcept {
-    const Array f0 = pushed_ + fed_back_ + model_.constant;
-    const Array f1 = intersample_ == Intersample::linear ? Array(pushed + fed_back_ + model_.constant) : f0;
+  Status step(State& to, const Scalar& dt, const Array& pushed) noexcept {
+    const Array f0 = pushed_ + fed_back_;
+    const Array f1 = intersample_ == Intersample::linear ? Array(pushed + fed_back_) : f0;
     if (dt != h_) {
       response_.set_lanes(model_.kappa, model_.beta, dt);
       h_ = dt;
     }
     if constexpr (exact) {
-      response_.advance_lanes(to.x, to.v, f0, f1);
+      response_.advance_lanes(to.x, to.v, f0 + model_.constant, f1 + model_.constant);
+    } else if constexpr (DecoupledEnvironment<Env>) {
+      const auto model_at = [&](const State& at) noexcept { return model_of(theta_, at); };
+      const detail::NonlinearStep<axes, Scalar, decltype(model_at)> nonlinear(model_at);
+      if (!(nonlinear.follow(to, model_, response_, dt, f0, f1) <= Scalar{1})) [[unlikely]] {
+        to = motion_;
+        return nonlinear.substeps(to, model_, dt, f0, f1);
+      }
     } else {
       correct(to, f0, f1);
     }
+    return Status::ok;
   }
 
-  // The force beside its tangent at the start, taken as linear in time over the step.
+  // Of axes that feel each other the force beside the tangent goes as t, and is taken as linear.
   void correct(State& to, const Array& f0, const Array& f1) noexcept {
     const State from = to;
-    response_.advance_lanes(to.x, to.v, f0, f1);
+    response_.advance_lanes(to.x, to.v, f0 + model_.constant, f1 + model_.constant);
     for (int correction = 0; correction < 2; ++correction) {
       const Array F_e =
           to_lanes<axes>(Vector(Traits::force(environment_, theta_, from_lanes<axes>(to.x), from_lanes<axes>(to.v))));
       const Array rest =
           own_.constant - F_e * per_mass_ + (model_.kappa - own_.kappa) * to.x + (model_.beta - own_.beta) * to.v;
       to = from;
-      response_.advance_lanes(to.x, to.v, f0, f1 - model_.constant + rest);
+      response_.advance_lanes(to.x, to.v, f0 + model_.constant, f1 + rest);
     }
   }
 
