@@ -5,10 +5,12 @@
 #include "corruption.hpp"
 #include "estimator_scenario.hpp"
 #include "excitation.hpp"
+#include "potential.hpp"
 #include "trial.hpp"
 
 #include <limpid/prediction/model_predictor.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -62,6 +64,11 @@ class PredictorStress {
     constexpr double stiffness[] = {800, 0, 1e6}, damping[] = {30, 0};
     Theta theta = Theta::Constant(Scalar(stiffness[trial.choices[4]]));
     theta.col(Env::parameters - 1).setConstant(Scalar(damping[trial.choices[5]]));
+    if constexpr (requires(Env e) { Env({.exponent = Scalar{}}); }) {
+      if (trial.choices[5] == 1) theta.col(1).setZero();  // undamped also in contact
+    } else if constexpr (Env::parameters == 3) {
+      theta.col(0) /= Scalar(4);  // the soft layer
+    }
     return theta;
   }
 
@@ -106,6 +113,9 @@ class PredictorStress {
       return;
     }
     const double h = started_ ? in_seconds(elapsed(now, last_)) : 0;
+    if constexpr (std::same_as<Parameters, Known> && !LinearEnvironment<Env>) {
+      if (free_ && started_) judge_energy_with_tolerance(motion, h);
+    }
     if constexpr (LinearEnvironment<Env> && std::same_as<Parameters, Known>) {
       if (free_ && started_) judge_energy(motion, h);
       if (!gain_ && !absurd_ && is_finite(F_h)) {  // absurd: an answer may be so large that the next one overflows
@@ -134,6 +144,28 @@ class PredictorStress {
     }
   }
 
+  // m v^2 / 2 + the force's integral, by how much it may grow without force. w of a NonlinearStep is at most q v / h,
+  // q = |change of kappa| h^2 + |change of beta| h and v the largest speed that the energy allows. The step takes its
+  // impulse to be w h/3; where the force is not smooth it may be anything from 0 to w h: m v times an error of
+  // 2/3 q v is 4/3 q of the energy. Where it is smooth the error is of order h^4, and less. A step that is taken
+  // has q <= 1/8; an implicit one adds nothing.
+  void judge_energy_with_tolerance(const Motion<axes, Scalar>& motion, double h) {
+    static_assert(axes == 1);
+    const double m = double(tool_.mass);
+    const auto potential = [&](double x) { return potential_of(environment_, theta_.transpose(), x); };
+    const auto energy = [&](const Motion<axes, Scalar>& at) {
+      return m * double(at.v[0]) * double(at.v[0]) / 2 + potential(double(at.x[0])).energy;
+    };
+    deepest_ = std::max({deepest_, std::abs(double(motion.x[0])), std::abs(double(motion_.x[0]))});
+    const double before = energy(motion_), b = double(theta_(0, Env::parameters - 1));
+    const double q = std::min(potential(deepest_).stiffness / m * h * h + b / m * h, 0.125);
+    const double roundings = 64 * double(std::numeric_limits<Scalar>::epsilon());
+    if (!(before > double(std::numeric_limits<Scalar>::min()) / epsilon)) return;
+    watch_.at_most("growth of energy beside a changing tangent", energy(motion) / before - 1, 4 * q / 3 + roundings);
+  }
+
+  Env environment_ = environment_of<Env>();
+  double deepest_ = 0;
   Excitation<3, Scalar> excitation_;
   Clock clock_;
   Line line_;
@@ -163,6 +195,7 @@ inline std::vector<Scenario> linear_predictor_scenarios() {
 
 inline std::vector<Scenario> nonlinear_predictor_scenarios() {
   return {predictor_scenario<HuntCrossley<1>, Known>("HuntCrossley<1>, Known", 2),
+          predictor_scenario<SmoothBilinear<1>, Known>("SmoothBilinear<1>, Known", 2),
           predictor_scenario<SmoothBilinear<1, float>, Estimated>("SmoothBilinear<1, float>, Estimated", 2),
           predictor_scenario<Unilateral<KelvinVoigt<1>>, Known>("Unilateral<KelvinVoigt<1>>, Known", 2)};
 }
