@@ -26,8 +26,8 @@ struct Options {
 std::vector<Case> chosen(const std::string& only) {
   const std::regex pattern(only);
   std::vector<Case> cases;
-  for (const auto& of_place : {predictor_step_cases, least_squares_cases, velocity_cases, observer_cases,
-                               trigonometry_cases, exponential_cases, omni_cases, whole_tick_cases}) {
+  for (const auto& of_place : {predictor_step_cases, nonlinear_step_cases, least_squares_cases, velocity_cases,
+                               observer_cases, trigonometry_cases, exponential_cases, omni_cases, whole_tick_cases}) {
     for (Case& each : of_place()) {
       if (std::regex_search(each.place + ", " + each.name, pattern)) cases.push_back(std::move(each));
     }

@@ -85,6 +85,7 @@ void append(Signals& signals, const Values& values) {
 
 // One source each, for the compiler's sake.
 [[nodiscard]] std::vector<Case> predictor_step_cases();
+[[nodiscard]] std::vector<Case> nonlinear_step_cases();
 [[nodiscard]] std::vector<Case> least_squares_cases();
 [[nodiscard]] std::vector<Case> velocity_cases();
 [[nodiscard]] std::vector<Case> observer_cases();
