@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Installs what is missing (Debian, Ubuntu), builds limpid with its tests and examples, sees that most benchmarks
 # compile, and runs all tests.
-# --long: then sees that the other benchmarks compile, runs a minute of each fuzz target (clang), and the stress programs
-# for 1e8 ticks.
+# --long: then sees that the other benchmarks compile, runs a minute of each fuzz target (clang), what counts under the
+# sanitizers, and the stress programs for 1e8 ticks.
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -38,6 +38,16 @@ cmake --preset dev -B build/fuzz -DCMAKE_CXX_COMPILER=clang++ -DLIMPID_BUILD_FUZ
   -DLIMPID_BUILD_EXAMPLES=OFF -DLIMPID_BUILD_BENCH=OFF
 cmake --build build/fuzz --target limpid_fuzz
 ctest --test-dir build/fuzz --label-regex '^fuzz$' --output-on-failure --no-tests=error
+
+# The numerical core and its stress under the address and undefined behaviour sanitizers; of the thread sanitizer's, the
+# one part with threads. All tests under either: cmake --workflow --preset asan, or tsan.
+cmake --preset asan -DLIMPID_BUILD_EXAMPLES=OFF
+cmake --build --preset asan --target limpid_test_core limpid_test_signal limpid_test_estimation \
+  limpid_test_prediction limpid_test_robot limpid_test_control limpid_test_stress
+ctest --preset asan --tests-regex '^(core|signal|estimation|prediction|robot|control|stress)[.]'
+cmake --preset tsan -DLIMPID_BUILD_EXAMPLES=OFF
+cmake --build --preset tsan --target limpid_test_design
+ctest --preset tsan --tests-regex '^design[.]map$'
 
 cmake --preset release
 cmake --build --preset release --target stress
