@@ -28,6 +28,7 @@ enum class Status : std::uint32_t {
   disconnected = 1U << 13,     ///< the device does not answer
   stale = 1U << 14,            ///< the newest data are older than allowed
   coarse = 1U << 15,           ///< a step too long for what it follows: taken damped, of order 1
+  lost = 1U << 16,             ///< a prediction far from what was measured: it started again from the newest sample
 };
 
 [[nodiscard]] constexpr Status operator|(Status a, Status b) noexcept {
@@ -50,7 +51,7 @@ constexpr Status& operator|=(Status& a, Status b) noexcept { return a = a | b; }
 
 /// "not_finite, singular", or "ok"; for people, not for the loop (allocates).
 [[nodiscard]] inline std::string describe(Status status) {
-  constexpr std::array<std::pair<Status, std::string_view>, 16> names{{
+  constexpr std::array<std::pair<Status, std::string_view>, 17> names{{
       {Status::not_finite, "not_finite"},
       {Status::clock_backwards, "clock_backwards"},
       {Status::no_sample, "no_sample"},
@@ -67,6 +68,7 @@ constexpr Status& operator|=(Status& a, Status b) noexcept { return a = a | b; }
       {Status::disconnected, "disconnected"},
       {Status::stale, "stale"},
       {Status::coarse, "coarse"},
+      {Status::lost, "lost"},
   }};
   std::string text;
   for (const auto& [bit, name] : names) {

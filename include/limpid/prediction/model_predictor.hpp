@@ -12,6 +12,7 @@
 #include <limpid/core/time.hpp>
 #include <limpid/environment/environment.hpp>
 #include <limpid/environment/tool.hpp>
+#include <limpid/estimation/any_above.hpp>
 #include <limpid/estimation/environment_estimate.hpp>
 #include <limpid/prediction/gains.hpp>
 #include <limpid/prediction/lane_motion.hpp>
@@ -55,6 +56,10 @@ struct Estimated {};
 /// taken: the tool stands at its last good motion, e_zd is forgotten, and what was observed for the tick is taken over
 /// as ever.
 ///
+/// A gain that was designed in contact may be unstable outside it, and a sample may be wrong. Where the prediction was
+/// off by more than `lost_beyond` at a sample's instant there is no feedback until the next one; where it was at two
+/// samples in a row, it starts again from the second. `lost` says so.
+///
 /// A sample from before the first tick is compared with the start, as if the prediction had stood there until then. One
 /// from before the history (Capacity ticks) or after `now` cannot be compared, and is dropped.
 /// @tparam Env         model of the environment
@@ -89,6 +94,7 @@ class ModelPredictor {
     Gain gain{};                                    ///< L
     Intersample intersample = Intersample::linear;  ///< of F_h between ticks
     Motion<axes, Scalar> start{};                   ///< x and v at the first tick; its a is not used
+    Scalar lost_beyond = Scalar{1} / Scalar{10};    ///< error of a position that is too large to be true, m
   };
 
   /// @throws std::invalid_argument  where the tool, the gain or a field is refused
@@ -96,6 +102,7 @@ class ModelPredictor {
       : environment_{settings.environment},
         gain_{settings.gain},
         intersample_{settings.intersample},
+        lost_beyond_{settings.lost_beyond},
         theta_{settings.theta},
         next_theta_{settings.theta},
         motion_{settings.start},
@@ -106,6 +113,7 @@ class ModelPredictor {
     expect(is_finite(theta_), "ModelPredictor: theta", "finite", theta_);
     expect(is_finite(settings.start), "ModelPredictor: start", "finite", "a motion that is not");
     expect(moderate(motion_), "ModelPredictor: start", "finite squares", "a motion that is too large");
+    expect(lost_beyond_ > Scalar{0}, "ModelPredictor: lost_beyond", "> 0", lost_beyond_);
     per_mass_ = Scalar{1} / tool.mass;
     expect(is_finite(per_mass_), "ModelPredictor: tool.mass", "a finite 1/mass", tool.mass);
     own_ = {Array::Constant(tool.stiffness * per_mass_), Array::Constant(tool.damping * per_mass_),
@@ -193,7 +201,7 @@ class ModelPredictor {
     take_over_estimate();
     if constexpr (!exact) look_around(next);
     if constexpr (Gain::scheduled) status |= schedule(dt, next);
-    status |= take_over_sample();
+    status |= take_over_sample(next);
     fed_back_ = feedback_of(gain_, error_);
     Array a = acceleration(next);
     if (!are_finite(a)) [[unlikely]] {
@@ -282,16 +290,28 @@ class ModelPredictor {
   }
 
   // e_zd from now on.
-  Status take_over_sample() noexcept {
+  Status take_over_sample(State& at) noexcept {
     if (!newest_.pending()) return Status::ok;
     if (const Status settled = newest_.settle(now_); settled != Status::ok) return settled;
     const bool before = newest_.taken() < begin_;
     const auto [mine, status] = history_.at(newest_.taken());
     if (!before && status != Status::ok) return status;
     const State error = (before ? start_ : mine) - observation_;
-    if (!are_finite(feedback_of(gain_, error))) return Status::not_finite;
+    if (!are_finite(feedback_of(gain_, error)) || !moderate(observation_)) return Status::not_finite;
+    if (any_above(Array(error.x.abs()), lost_beyond_)) [[unlikely]]
+      return lose(at);
+    doubted_ = false;
     error_ = error;
     return Status::ok;
+  }
+
+  // One sample far off may be wrong itself; after a second one the tool is where that was.
+  Status lose(State& at) noexcept {
+    error_ = {};
+    if (doubted_) at = observation_;
+    if constexpr (!exact) look_around(at);
+    doubted_ = true;
+    return Status::lost;
   }
 
   // The tangent there, for the next step; where it is the one before, as in free space, so is the response.
@@ -354,8 +374,9 @@ class ModelPredictor {
   Env environment_;
   Gain gain_;
   Intersample intersample_;
-  Scalar per_mass_{};  // 1/kg
-  Model own_;          // the tool alone
+  Scalar per_mass_{};   // 1/kg
+  Scalar lost_beyond_;  // m
+  Model own_;           // the tool alone
   // where exact: the model of theta = 0, and what each parameter adds
   Model at_zero_;
   std::array<Model, exact ? std::size_t{parameters} : 0> per_parameter_;
@@ -371,7 +392,7 @@ class ModelPredictor {
   SecondOrderStep<axes, Scalar> response_;
   State observation_{};  // the newest sample's
   SampleStamps newest_;
-  bool started_ = false, estimated_ = false;
+  bool started_ = false, estimated_ = false, doubted_ = false;
   Time begin_{}, now_{};  // the first tick and the last
   History<State, Capacity> history_;
 };
