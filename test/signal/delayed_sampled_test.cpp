@@ -101,6 +101,16 @@ TEST_CASE("the most samples on their way that a setting allows are all kept") {
   }
 }
 
+TEST_CASE("a sample has room where one that arrives in the same tick leaves") {
+  DelayedSampled<double, 1> signal({.period = 10ms, .delay = 9ms});
+  CHECK(signal.update(9ms, 9.0).status == Status::no_sample);    // arrives at 18 ms
+  CHECK(signal.update(10ms, 10.0).status == Status::no_sample);  // at 19 ms
+  const Held<double> held = signal.update(20ms, 20.0);
+  CHECK(held.status == Status::ok);
+  CHECK(held.value == 10);
+  CHECK(signal.update(29ms, 29.0).value == 20);
+}
+
 TEST_CASE("samples with their own clock are seen when they arrive, whatever their spacing") {
   DelayedSampled<double> signal({.period = 1ms, .delay = 0ms});
   CHECK(signal.offer({.value = 1, .taken = 2ms, .arrived = 5ms}) == Status::ok);

@@ -87,12 +87,13 @@ class DelayedSampled {
     for (std::size_t i = 0; i < count_; ++i) {
       if (slot(i).taken == sample.taken) return Status::out_of_order;
     }
-    return send(sample.value, sample.taken, sample.arrived, now_);
+    return send(sample.value, sample.taken, sample.arrived, now_, Capacity + 1);
   }
 
  private:
-  // Of samples taken in (now - delay, now] there are at most ceil(delay / period) + 1.
-  static constexpr std::size_t slots = Capacity + 2;  // and the one that is held
+  // Of samples taken in (now - delay, now] there are at most ceil(delay / period) + 1. One more is taken before those
+  // that have arrived by the same tick leave, and one is held.
+  static constexpr std::size_t slots = Capacity + 3;
 
   static constexpr Duration longest = Duration::max() / 2;  // of an age
 
@@ -119,12 +120,13 @@ class DelayedSampled {
       lost_ = now;
       return Status::not_finite;
     }
-    return send(value, now, later(now, delay_), now);
+    return send(value, now, later(now, delay_), now, Capacity + 2);
   }
 
-  // Keeps the ring in the order of arrival. What arrives too far ahead cannot keep out what is to come sooner.
-  Status send(const T& value, Time taken, Time arrived, Time now) noexcept {
-    const bool full = count_ == slots - 1;
+  // Keeps the ring in the order of arrival, `most` of them. What arrives too far ahead cannot keep out what is to come
+  // sooner.
+  Status send(const T& value, Time taken, Time arrived, Time now, std::size_t most) noexcept {
+    const bool full = count_ >= most;
     if (full) {
       const Time latest = std::max(slot(count_ - 1).arrived, arrived);
       if (!started_ || elapsed(latest, now) <= longest_age_) {
