@@ -152,6 +152,14 @@ TEST_CASE("a sample taken before the one that is held, or after the tick, is not
   CHECK(fresh.update(2ms, held(0.01, 0.02, 9, 2ms)) == Status::ok);
 }
 
+TEST_CASE("a sample too large to be squared is not taken over") {
+  Linear estimator(linear_model());
+  (void)estimator.update(1ms, held(0.01, 0.02, 9, 1ms));
+  CHECK(estimator.update(2ms, held(0.01, 0.02, 1e160, 2ms)) == Status::not_finite);
+  CHECK(estimator.update(3ms, held(1e160, 0.02, 9, 3ms)) == Status::not_finite);
+  CHECK(estimator.update(4ms, held(0.01, 0.02, 9, 4ms)) == Status::ok);  // the law went on with the first
+}
+
 TEST_CASE("an update asks for no memory") {
   Linear estimator(linear_model());
   limpid::test::check_no_allocation([&] {

@@ -63,6 +63,11 @@ TEST_CASE("what is not finite, or does not advance, changes nothing") {
   }
   CHECK(rls.update(0.001, Pair(1e200, 0.01), force(1)) == Status::not_finite);  // its square is infinite
   CHECK(rls.update(0.001, Pair(1e150, 0.01), force(1)) == Status::not_finite);  // D would be as good as 0
+  for (const double large : {1e160, 1.7e308, -1e160}) {                         // so are theirs; the box would hide it
+    CHECK(rls.update(0.001, Pair(0.01, 0.01), force(large)) == Status::not_finite);
+    CHECK(rls.update(0.001, Pair(0, 0), force(large)) == Status::not_finite);
+    CHECK(rls.update(0.001, Pair(0.01, large), force(1)) == Status::not_finite);
+  }
   CHECK(rls.update(0, Pair(0.01, 0.01), force(1)) == Status::clock_backwards);
   CHECK(rls.update(-0.001, Pair(0.01, 0.01), force(1)) == Status::clock_backwards);
   CHECK((rls.theta() == theta).all());

@@ -83,7 +83,8 @@ class ProjectionRLS {
     /// @param F    measured force less its known part, N
     Held(const Regressor& phi, const Vector& F) noexcept : phi_{to_lane_columns<Axes>(phi)}, F_{to_lanes<Axes>(F)} {}
 
-    [[nodiscard]] bool is_finite() const noexcept { return finite(phi_, F_); }
+    /// Whether phi and F are finite and small enough to be squared.
+    [[nodiscard]] bool is_finite() const noexcept { return have_squares(phi_, F_); }
 
    private:
     friend ProjectionRLS;
@@ -94,9 +95,9 @@ class ProjectionRLS {
   /// The law over `dt` seconds with `phi` and `F` held.
   /// @param phi  regressor phi_e,zd; row: axis
   /// @param F    measured force less its known part, N
-  /// @return     not_finite (also where phi or F is too large to be squared, or would take D below the
-  ///             factors' floor, the smallest normal number over epsilon) or clock_backwards: nothing changed;
-  ///             at_bound: the box held a parameter
+  /// @return     not_finite (also where phi or F is too large to be squared, or the two together too large for the
+  ///             step, or where D would fall below the factors' floor, the smallest normal number over epsilon) or
+  ///             clock_backwards: nothing changed, on no axis; at_bound: the box held a parameter
   [[nodiscard]] Status update(const Scalar& dt, const Regressor& phi, const Vector& F) noexcept {
     return update(dt, Held(phi, F));
   }
@@ -133,17 +134,24 @@ class ProjectionRLS {
   static Columns columns(const Theta& values) noexcept { return to_lane_columns<Axes>(values); }
 
   [[nodiscard]] Status updated(const Scalar& dt, const Columns& phi, const Array& F) noexcept {
-    if (!is_finite(dt) || !finite(phi, F)) return Status::not_finite;
+    if (!is_finite(dt) || !have_squares(phi, F)) return Status::not_finite;
     if (!(dt > Scalar{0})) return Status::clock_backwards;
     if (dt != dt_) set_step(dt);
     State next;
     next = state_;  // assigned, not constructed: by whole packets
     flow(next, dt, phi, F);
     const Status bound = project(next);
-    // else phi or F is too large to be squared
+    // else phi and F are too large for the step
     if (!finite(next.theta, next.Gamma.sum()) || !next.Gamma.is_resolved()) return Status::not_finite;
     state_ = next;
     return bound;
+  }
+
+  // No measurement is as large, and the box would hide one that is. NaN compares false.
+  static bool have_squares(const Columns& phi, const Array& F) noexcept {
+    Array sum = F * F;
+    for (const auto& entry : phi) sum += entry * entry;
+    return sum.sum() <= std::numeric_limits<Scalar>::max();
   }
 
   // Zero times a finite number is zero, times any other it is NaN.
