@@ -152,6 +152,31 @@ TEST_CASE("a sample taken before the one that is held, or after the tick, is not
   CHECK(fresh.update(2ms, held(0.01, 0.02, 9, 2ms)) == Status::ok);
 }
 
+// phi = 1e150 is finite, as is its square, but would take D below its floor.
+TEST_CASE("while the law refuses the sample that is held every tick says so, and no axis learns") {
+  using Estimator = EnvironmentEstimator<KelvinVoigt<2>>;
+  const auto box = [](double k, double b) { return (Estimator::Law::Theta() << k, b, k, b).finished(); };
+  const Estimator::Law::Settings law{
+      .lower = box(200, 20), .upper = box(2000, 40), .initial = box(1100, 30), .initial_gain = box(1e9, 8e6)};
+  Estimator estimator({.environment = {}, .law = law});
+  Held<ToolState<2>> sample;
+  sample.value = {{0.01, 1e150}, {0.02, 0}, {0, 0}, {9, 1}};
+  sample.taken = 1ms;
+  CHECK(estimator.update(1ms, sample) == Status::ok);
+  for (const Time now : {2ms, 3ms}) {
+    CHECK(estimator.update(now, sample) == Status::not_finite);
+    CHECK((estimator.estimate().theta_hat == box(1100, 30)).all());
+    CHECK(estimator.estimate().stamp == now);
+  }
+  sample.value.x[1] = 0.01;
+  sample.taken = 4ms;
+  CHECK(estimator.update(4ms, sample) == Status::not_finite);  // of the old one, up to here
+  CHECK(estimator.update(5ms, sample) == Status::ok);
+  Estimator::Law alone(law);
+  (void)alone.update(0.001, (Estimator::Law::Regressor() << 0.01, 0.02, 0.01, 0).finished(), {9, 1});
+  CHECK((estimator.estimate().theta_hat == alone.theta()).all());
+}
+
 TEST_CASE("a sample too large to be squared is not taken over") {
   Linear estimator(linear_model());
   (void)estimator.update(1ms, held(0.01, 0.02, 9, 1ms));

@@ -17,6 +17,9 @@ namespace limpid {
 /// Over [previous now, now] the law runs with the sample that was held then; only at its end the new one is taken over.
 /// The law is causal and its discretisation exact. Before the first sample it does not run.
 ///
+/// A held sample that the law refuses (`ProjectionRLS::update`) is refused on every tick until a new one comes: no axis
+/// learns, time passes, and each tick says so.
+///
 /// In an environment that is not bilateral an axis on which nothing pushes back is not in contact: its force says
 /// nothing of the parameters, and the law runs there with phi = 0 and F = 0.
 /// @tparam Env  the model whose parameters are sought
@@ -40,8 +43,9 @@ class EnvironmentEstimator {
   explicit EnvironmentEstimator(const Settings& settings) : environment_{settings.environment}, law_{settings.law} {}
 
   /// Brings the estimate to `now` and holds `sample` from now on.
-  /// @return  clock_backwards: nothing changed; no_sample; at_bound; not_finite, or out_of_order (taken before the one
-  ///          that is held, or after `now`): the sample was not taken over
+  /// @return  clock_backwards: nothing changed; no_sample; at_bound; out_of_order (taken before the one that is held, or
+  ///          after `now`): the sample was not taken over; not_finite: nor was it, or the law refused the one that was
+  ///          held, and no axis learned since the last tick
   [[nodiscard]] Status update(Time now, const Held<ToolState<axes, Scalar>>& sample) noexcept {
     if (started_ && now <= now_) return Status::clock_backwards;
     Status status = Status::ok;
