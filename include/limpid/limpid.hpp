@@ -19,6 +19,7 @@
 #include <limpid/core/second_order_step.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
+#include <limpid/core/unroll.hpp>
 
 #include <limpid/signal/delayed_sampled.hpp>
 #include <limpid/signal/filtered_derivative.hpp>

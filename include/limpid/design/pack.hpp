@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limpid/core/real.hpp>
+#include <limpid/core/unroll.hpp>
 
 #include <Eigen/Core>
 
@@ -10,13 +11,6 @@
 #include <cstddef>
 #include <type_traits>
 #include <utility>
-
-// Loops over the entries of a block are short and of known length: without this -O2 leaves them loops.
-#if defined(__clang__)
-#define LIMPID_UNROLL _Pragma("unroll")
-#else
-#define LIMPID_UNROLL _Pragma("GCC unroll 8")
-#endif
 
 /// Numbers side by side, each lane for itself.
 namespace limpid::detail {

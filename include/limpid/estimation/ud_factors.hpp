@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limpid/core/real.hpp>
+#include <limpid/core/unroll.hpp>
 #include <limpid/estimation/any_above.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
 
@@ -42,8 +43,10 @@ class UDFactors {
   [[nodiscard]] Direction along(const Columns& phi) const noexcept {
     Direction seen;
     seen.s = Array::Zero();
+    LIMPID_UNROLL
     for (std::size_t j = 0; j < n; ++j) {
       seen.f[j] = phi[j];
+      LIMPID_UNROLL
       for (std::size_t i = 0; i < j; ++i) seen.f[j] += U_[at(i, j)] * phi[i];
       seen.v[j] = D_[j] * seen.f[j];
       seen.s += seen.f[j] * seen.v[j];
@@ -56,9 +59,11 @@ class UDFactors {
   Columns downdate(const Direction& seen, const Array& u) noexcept {
     Columns b;
     Array a = Array::Ones(), inverse = Array::Ones();  // 1 + u (f_0 v_0 + ... + f_(j-1) v_(j-1)), and 1 over it
+    LIMPID_UNROLL
     for (std::size_t j = 0; j < n; ++j) {
       const Array raised = a + u * (seen.f[j] * seen.v[j]);
       const Array raised_inverse = raised.inverse();
+      LIMPID_UNROLL
       for (std::size_t i = 0; i < j; ++i) {
         const Array slope = b[i] * inverse;
         b[i] += U_[at(i, j)] * seen.v[j];
@@ -69,18 +74,22 @@ class UDFactors {
       a = raised;
       inverse = raised_inverse;
     }
+    LIMPID_UNROLL
     for (auto& entry : b) entry *= u * inverse;
     return b;
   }
 
   void scale(const Array& factor) noexcept {
+    LIMPID_UNROLL
     for (auto& entry : D_) entry *= factor;
   }
 
   [[nodiscard]] Array trace() const noexcept {
     Array sum = D_[0];
+    LIMPID_UNROLL
     for (std::size_t j = 1; j < n; ++j) {
       Array column = Array::Ones();
+      LIMPID_UNROLL
       for (std::size_t i = 0; i < j; ++i) column += U_[at(i, j)].square();
       sum += column * D_[j];
     }
@@ -90,6 +99,7 @@ class UDFactors {
   /// Whether D >= floor().
   [[nodiscard]] bool is_resolved() const noexcept {
     Array least = D_[0];
+    LIMPID_UNROLL
     for (std::size_t j = 1; j < n; ++j) least = least.min(D_[j]);
     return !any_above(Array(-least), Scalar(-floor()));
   }
@@ -97,6 +107,7 @@ class UDFactors {
   /// Finite exactly where all factors are (short of overflow in the sum itself).
   [[nodiscard]] Array sum() const noexcept {
     Array total = D_[0];
+    LIMPID_UNROLL
     for (std::size_t j = 1; j < n; ++j) total += D_[j];
     for (const auto& entry : U_) total += entry;
     return total;
