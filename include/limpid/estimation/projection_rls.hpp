@@ -239,9 +239,10 @@ class ProjectionRLS {
     }
     if (!any_above(excess, Scalar{0})) [[likely]]
       return Status::ok;
-    for (int lane = 0; lane < lanes; ++lane) {
+    for (int lane = 0; lane < Axes; ++lane) {
       if (excess[lane] > Scalar{0}) project_lane(next, lane);
     }
+    for (auto& column : next.theta) column.template tail<lanes - Axes>().setConstant(column[Axes - 1]);
     return Status::at_bound;
   }
 
