@@ -43,7 +43,8 @@ class EnvironmentEstimator {
   explicit EnvironmentEstimator(const Settings& settings) : environment_{settings.environment}, law_{settings.law} {}
 
   /// Brings the estimate to `now` and holds `sample` from now on.
-  /// @return  clock_backwards: nothing changed; no_sample; at_bound; out_of_order (taken before the one that is held, or
+  /// @return  clock_backwards: nothing changed; no_sample; at_bound; out_of_order (taken before the one that is held,
+  /// or
   ///          after `now`): the sample was not taken over; not_finite: nor was it, or the law refused the one that was
   ///          held, and no axis learned since the last tick
   [[nodiscard]] Status update(Time now, const Held<ToolState<axes, Scalar>>& sample) noexcept {
