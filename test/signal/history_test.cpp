@@ -152,3 +152,18 @@ TEST_CASE("no call allocates") {
     }
   });
 }
+
+TEST_CASE("entries are in order, the oldest first, and can be forgotten") {
+  History<double, 4> history;
+  for (int k = 0; k < 6; ++k) (void)history.push(10ms * k, 1.0 * k);
+  REQUIRE(history.size() == 4);
+  CHECK(history.time(0) == 20ms);
+  CHECK(history.value(3) == 5);
+  CHECK(history.first_not_before(0ms) == 0);
+  CHECK(history.first_not_before(30ms) == 1);
+  CHECK(history.first_not_before(31ms) == 2);
+  CHECK(history.first_not_before(51ms) == 4);
+  history.clear();
+  CHECK(history.size() == 0);
+  CHECK(history.at(50ms).status == Status::no_sample);
+}

@@ -65,29 +65,12 @@ class History {
 
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 
-  /// The last entry; zero at instant zero where nothing is stored.
-  [[nodiscard]] Sample<T> newest() const noexcept {
-    if (count_ == 0) return {};
-    return {value(count_ - 1), time(count_ - 1), time(count_ - 1)};
-  }
-
- private:
-  static constexpr auto scalar_of() {
-    if constexpr (requires { typename T::Scalar; }) {
-      return typename T::Scalar{};
-    } else {
-      return T{};
-    }
-  }
-  using Scalar = decltype(scalar_of());
-
-  static constexpr std::size_t mask = Capacity - 1;
-
+  /// Entries in order, the oldest at 0.
   [[nodiscard]] const Time& time(std::size_t i) const noexcept { return times_[(first_ + i) & mask]; }
   [[nodiscard]] const T& value(std::size_t i) const noexcept { return values_[(first_ + i) & mask]; }
 
-  // Index of the first entry at or after t, count_ where there is none. From the newest back in growing steps: what is
-  // asked for is mostly young.
+  /// Index of the first entry at or after `t`, `size()` where there is none. From the newest back in growing steps:
+  /// what is asked for is mostly young.
   [[nodiscard]] std::size_t first_not_before(Time t) const noexcept {
     std::size_t low = count_, high = count_, back = 1;
     while (low > 0 && !(time(low - 1) < t)) {
@@ -105,6 +88,26 @@ class History {
     }
     return low;
   }
+
+  void clear() noexcept { first_ = count_ = 0; }
+
+  /// The last entry; zero at instant zero where nothing is stored.
+  [[nodiscard]] Sample<T> newest() const noexcept {
+    if (count_ == 0) return {};
+    return {value(count_ - 1), time(count_ - 1), time(count_ - 1)};
+  }
+
+ private:
+  static constexpr auto scalar_of() {
+    if constexpr (requires { typename T::Scalar; }) {
+      return typename T::Scalar{};
+    } else {
+      return T{};
+    }
+  }
+  using Scalar = decltype(scalar_of());
+
+  static constexpr std::size_t mask = Capacity - 1;
 
   std::array<Time, Capacity> times_{};  // apart from the values: a search touches few cache lines
   std::array<T, Capacity> values_{};
