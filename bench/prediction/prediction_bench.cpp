@@ -2,7 +2,9 @@
 #include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/prediction/hold_predictor.hpp>
+#include <limpid/prediction/linear_predictor.hpp>
 #include <limpid/prediction/model_predictor.hpp>
+#include <limpid/prediction/quadratic_predictor.hpp>
 
 #include <benchmark/benchmark.h>
 
@@ -30,6 +32,14 @@ void tick(benchmark::State& state, Predictor predictor) {
 
 void hold_predictor_3_axes(benchmark::State& state) { tick(state, limpid::HoldPredictor<3>()); }
 BENCHMARK(hold_predictor_3_axes);
+
+void linear_predictor_3_axes(benchmark::State& state) { tick(state, limpid::LinearPredictor<3>()); }
+BENCHMARK(linear_predictor_3_axes);
+
+void quadratic_predictor_3_axes(benchmark::State& state) {
+  tick(state, limpid::QuadraticPredictor<3>({.tool = {.mass = 0.1, .damping = 0.1}}));
+}
+BENCHMARK(quadratic_predictor_3_axes);
 
 template <typename Predictor>
 Predictor linear() {

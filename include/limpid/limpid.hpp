@@ -60,8 +60,11 @@
 #include <limpid/prediction/hold_predictor.hpp>
 #include <limpid/prediction/knots.hpp>
 #include <limpid/prediction/lane_motion.hpp>
+#include <limpid/prediction/linear_predictor.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
+#include <limpid/prediction/quadratic_predictor.hpp>
+#include <limpid/prediction/sample_intake.hpp>
 
 #include <limpid/design/adaptation_rate.hpp>
 #include <limpid/design/balance.hpp>
