@@ -54,6 +54,8 @@
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
 #include <limpid/estimation/ud_factors.hpp>
 
+#include <limpid/prediction/autoregressive_predictor.hpp>
+#include <limpid/prediction/cubic_hermite.hpp>
 #include <limpid/prediction/gain_table.hpp>
 #include <limpid/prediction/gains.hpp>
 #include <limpid/prediction/held_tangents.hpp>
@@ -65,6 +67,7 @@
 #include <limpid/prediction/predictor.hpp>
 #include <limpid/prediction/quadratic_predictor.hpp>
 #include <limpid/prediction/sample_intake.hpp>
+#include <limpid/prediction/stable_recursion.hpp>
 
 #include <limpid/design/adaptation_rate.hpp>
 #include <limpid/design/balance.hpp>
