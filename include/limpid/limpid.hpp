@@ -67,6 +67,7 @@
 #include <limpid/prediction/predictor.hpp>
 #include <limpid/prediction/quadratic_predictor.hpp>
 #include <limpid/prediction/sample_intake.hpp>
+#include <limpid/prediction/smith_predictor.hpp>
 #include <limpid/prediction/stable_recursion.hpp>
 
 #include <limpid/design/adaptation_rate.hpp>
