@@ -66,9 +66,11 @@
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
 #include <limpid/prediction/quadratic_predictor.hpp>
+#include <limpid/prediction/replay_predictor.hpp>
 #include <limpid/prediction/sample_intake.hpp>
 #include <limpid/prediction/smith_predictor.hpp>
 #include <limpid/prediction/stable_recursion.hpp>
+#include <limpid/prediction/tool_in_model.hpp>
 
 #include <limpid/design/adaptation_rate.hpp>
 #include <limpid/design/balance.hpp>
