@@ -63,8 +63,10 @@
 #include <limpid/prediction/knots.hpp>
 #include <limpid/prediction/lane_motion.hpp>
 #include <limpid/prediction/linear_predictor.hpp>
+#include <limpid/prediction/mixture_weights.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/prediction/predictor.hpp>
+#include <limpid/prediction/predictor_mixture.hpp>
 #include <limpid/prediction/quadratic_predictor.hpp>
 #include <limpid/prediction/replay_predictor.hpp>
 #include <limpid/prediction/sample_intake.hpp>
