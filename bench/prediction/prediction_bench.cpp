@@ -23,6 +23,7 @@ void tick(benchmark::State& state, Predictor predictor) {
   for (auto _ : state) {
     now += 1ms;
     sample.taken = now - 5ms;
+    sample.arrived = now;
     benchmark::DoNotOptimize(sample);
     benchmark::DoNotOptimize(F_h);
     benchmark::DoNotOptimize(predictor.observe(sample));
