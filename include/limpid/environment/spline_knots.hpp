@@ -17,8 +17,8 @@ struct SplineWeights {
   std::array<Scalar, 4> slope{};  ///< 1/m
 };
 
-/// Uniform cubic B-spline over a range of coefficients that grows: coefficient j belongs to the knot at j spacing. Beyond
-/// the outermost knots with full support the curve goes on straight, along its tangent there.
+/// Uniform cubic B-spline over a range of coefficients that grows: coefficient j belongs to the knot at j spacing.
+/// Beyond the outermost knots with full support the curve goes on straight, along its tangent there.
 /// @realtime  no allocation, no throw for built-in scalars; `at` some 40 flops
 template <Real Scalar = double>
 class SplineKnots {

@@ -39,12 +39,12 @@ class TissueLaw {
   using Branch = MaxwellBranches<Branches, Scalar>;
 
   struct Settings {
-    Scalar mass{}, tool_damping{};             ///< kg, N s/m
-    Scalar knot_spacing{}, damper_spacing{};   ///< m
-    typename Branch::Lags lags{};              ///< tau, s
-    Scalar presliding{};                       ///< travel, m
-    Scalar residual_time{};                    ///< s
-    Scalar least_slope{}, most_damping{};      ///< N/m beyond what was visited; N s/m
+    Scalar mass{}, tool_damping{};                  ///< kg, N s/m
+    Scalar knot_spacing{}, damper_spacing{};        ///< m
+    typename Branch::Lags lags{};                   ///< tau, s
+    Scalar presliding{};                            ///< travel, m
+    Scalar residual_time{};                         ///< s
+    Scalar least_slope{}, most_damping{};           ///< N/m beyond what was visited; N s/m
     bool relaxation = false, dry_friction = false;  ///< what is there at all
   };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/cholesky_3.hpp>
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/real.hpp>
@@ -30,9 +31,10 @@ struct AxisSample {
 
 /// Learns the whole force law of a tissue along one axis from samples of the tool and the known force of the operator.
 ///
-/// Two samples and the operator's force between them hold the tissue's impulse: the tool is replayed from the one to the
-/// other with the law as it is known, and an iterated Kalman filter takes what is missing at the end, in x, v and F_e,
-/// as the error of the law, of the state at the start, and of the measurements. Each iteration is a Gauss-Newton step on
+/// Two samples and the operator's force between them hold the tissue's impulse: the tool is replayed from the one to
+/// the other with the law as it is known, and an iterated Kalman filter takes what is missing at the end, in x, v and
+/// F_e, as the error of the law, of the state at the start, and of the measurements. Each iteration is a Gauss-Newton
+/// step on
 ///
 ///     (s - s0)' P^-1 (s - s0) + (z - h(s))' W^-1 (z - h(s)),
 ///
@@ -51,26 +53,26 @@ class TissueLearner {
   static constexpr int states = Law::states;
 
   struct Settings {
-    Scalar mass{};                                   ///< of the tool, kg
-    Scalar tool_damping{0};                          ///< N s/m
-    Scalar knot_spacing = Scalar(5) / 100000;        ///< at first; doubled where the range needs it, m
-    Scalar damper_spacing = Scalar(1) / 1000;        ///< m
-    Scalar slope{1000}, slope_deviation{700};        ///< of the tissue before anything is seen, N/m
-    Scalar curvature{60000};                         ///< deviation of the slope's change over depth, (N/m)/sqrt(m)
-    Scalar damping{25}, damping_deviation{12};       ///< N s/m
-    Scalar damping_change{10};                       ///< deviation from one damper to the next, N s/m
-    bool relaxation = true, dry_friction = false;    ///< whether they are learnt
-    Scalar branch_deviation{100};                    ///< of each K_i, N/m
-    Scalar friction_deviation = Scalar(5) / 100;     ///< of F_c, N
+    Scalar mass{};                                     ///< of the tool, kg
+    Scalar tool_damping{0};                            ///< N s/m
+    Scalar knot_spacing = Scalar(5) / 100000;          ///< at first; doubled where the range needs it, m
+    Scalar damper_spacing = Scalar(1) / 1000;          ///< m
+    Scalar slope{1000}, slope_deviation{700};          ///< of the tissue before anything is seen, N/m
+    Scalar curvature{60000};                           ///< deviation of the slope's change over depth, (N/m)/sqrt(m)
+    Scalar damping{25}, damping_deviation{12};         ///< N s/m
+    Scalar damping_change{10};                         ///< deviation from one damper to the next, N s/m
+    bool relaxation = true, dry_friction = false;      ///< whether they are learnt
+    Scalar branch_deviation{50};                       ///< of each K_i, N/m
+    Scalar friction_deviation = Scalar(5) / 100;       ///< of F_c, N
     typename Law::Branch::Lags lags = default_lags();  ///< of the branches, s
-    Scalar presliding = Scalar(1) / 100000;          ///< m
-    Scalar residual_time = Scalar(3) / 10;           ///< s
-    Scalar residual_deviation = Scalar(1) / 10000;   ///< N
-    Scalar process_deviation = Scalar(1) / 10000;    ///< of a force that the law lacks over an interval, N
-    Scalar least_slope{150};                         ///< of the prediction beyond the visited depths, N/m
-    Scalar most_slope{6000}, most_damping{200};      ///< N/m, N s/m
-    bool scale_changes = true;                       ///< whether the tissue may change as a whole
-    int iterations = 6;                              ///< at most
+    Scalar presliding = Scalar(1) / 100000;            ///< m
+    Scalar residual_time = Scalar(3) / 10;             ///< s
+    Scalar residual_deviation = Scalar(1) / 10000;     ///< N
+    Scalar process_deviation = Scalar(1) / 10000;      ///< of a force that the law lacks over an interval, N
+    Scalar least_slope{150};                           ///< of the prediction beyond the visited depths, N/m
+    Scalar most_slope{6000}, most_damping{200};        ///< N/m, N s/m
+    bool scale_changes = true;                         ///< whether the tissue may change as a whole
+    int iterations = 6;                                ///< at most
   };
 
   /// @throws std::invalid_argument  where a field is refused
@@ -83,7 +85,9 @@ class TissueLearner {
   [[nodiscard]] bool started() const noexcept { return started_; }
 
   /// Where the newest sample was, as far as is known: measured and filtered.
-  [[nodiscard]] Point newest() const noexcept { return {s_[Law::position], s_[Law::velocity], s_[Law::residual], memory_}; }
+  [[nodiscard]] Point newest() const noexcept {
+    return {s_[Law::position], s_[Law::velocity], s_[Law::residual], memory_};
+  }
   [[nodiscard]] Time taken() const noexcept { return taken_; }
 
   /// Variance of F_e, x and v as it is known to be, N^2, m^2, (m/s)^2.
@@ -198,9 +202,9 @@ class TissueLearner {
     for (int j = knots.low(); j <= knots.high(); ++j) {
       s_[Law::coefficient(j)] = settings_.slope * away(j);
       for (int i = knots.low(); i <= knots.high(); ++i) {
-        P_(Law::coefficient(i), Law::coefficient(j)) =
-            Scalar{1} + away(i) * away(j) * square(settings_.slope_deviation) +
-            (i == j ? bend_variance() / Scalar(10) : Scalar{0});
+        P_(Law::coefficient(i), Law::coefficient(j)) = Scalar{1} +
+                                                       away(i) * away(j) * square(settings_.slope_deviation) +
+                                                       (i == j ? bend_variance() / Scalar(10) : Scalar{0});
       }
     }
     started_ = true;
@@ -408,7 +412,8 @@ class TissueLearner {
   template <typename Any>
   void add_row(Any& H, int column, const State&, const Point& p, const Scalar& weight) const noexcept {
     const auto w = law_.knots().at(p.x);
-    for (std::size_t k = 0; k < 4; ++k) H(Law::coefficient(w.first + static_cast<int>(k)), column) += weight * w.value[k];
+    for (std::size_t k = 0; k < 4; ++k)
+      H(Law::coefficient(w.first + static_cast<int>(k)), column) += weight * w.value[k];
     const auto [first, second] = law_.damper_weights(p.x);
     H(Law::damper(first), column) += weight * p.v * (Scalar{1} - second);
     H(Law::damper(first + 1), column) += weight * p.v * second;
@@ -535,9 +540,9 @@ class TissueLearner {
 
   // Gauss-Newton from the prior s_ to si_, in here_; u with si = s + P u gives the prior's cost without P^-1.
   void iterate(const AxisSample<Scalar>& z) noexcept {
-    const Matrix3 weight = W_.inverse();
+    const Cholesky3<Scalar> weight(W_);
     const auto cost = [&](const State& u, const State& at, const Scalar3& y) {
-      return u.dot(at - s_) + y.dot(weight * y);
+      return u.dot(at - s_) + weight.whitened(y).squaredNorm();
     };
     si_ = s_;
     u_.setZero();
@@ -545,7 +550,7 @@ class TissueLearner {
     for (int i = 0; i < settings_.iterations; ++i) {
       if (i > 0) project_rows(here_.H, PH_);
       const Matrix3 S = here_.H.transpose() * PH_ + W_;
-      const Scalar3 g = S.inverse() * (here_.y - here_.H.transpose() * (s_ - si_));
+      const Scalar3 g = Cholesky3<Scalar>(S).solve(here_.y - here_.H.transpose() * (s_ - si_));
       State u = here_.H * g, target = s_ + PH_ * g;
       keep_physical(target, u);
       const Scalar before = now;
@@ -608,16 +613,9 @@ class TissueLearner {
   void take_in() noexcept {
     project_rows(here_.H, PH_);
     const Matrix3 S = here_.H.transpose() * PH_ + W_;
-    missing_ = S.inverse() * (here_.y - here_.H.transpose() * (s_ - si_));
-    using std::sqrt;
-    // S = G G', by hand: three columns
-    Matrix3 G = Matrix3::Zero();
-    G(0, 0) = sqrt(S(0, 0));
-    G(1, 0) = S(1, 0) / G(0, 0);
-    G(2, 0) = S(2, 0) / G(0, 0);
-    G(1, 1) = sqrt(S(1, 1) - G(1, 0) * G(1, 0));
-    G(2, 1) = (S(2, 1) - G(2, 0) * G(1, 0)) / G(1, 1);
-    G(2, 2) = sqrt(S(2, 2) - G(2, 0) * G(2, 0) - G(2, 1) * G(2, 1));
+    const Cholesky3<Scalar> factor(S);
+    missing_ = factor.solve(here_.y - here_.H.transpose() * (s_ - si_));
+    const Matrix3& G = factor.lower();
     Rows B;
     B.col(0) = PH_.col(0) / G(0, 0);
     B.col(1) = (PH_.col(1) - B.col(0) * G(1, 0)) / G(1, 1);
@@ -667,12 +665,12 @@ class TissueLearner {
   typename Law::Memory memory_{};
   Time taken_{};
   bool started_ = false;
-  NoiseLevels<6, Scalar> x_noise_{{Scalar(1e-8), Scalar(1e-7), Scalar(5e-7), Scalar(1.5e-6), Scalar(3e-6), Scalar(1e-5)},
-                                  Scalar(98) / Scalar(100)};
+  NoiseLevels<6, Scalar> x_noise_{
+      {Scalar(1e-8), Scalar(1e-7), Scalar(5e-7), Scalar(1.5e-6), Scalar(3e-6), Scalar(1e-5)}, Scalar(98) / Scalar(100)};
   NoiseLevels<5, Scalar> v_noise_{{Scalar(1e-6), Scalar(1e-5), Scalar(3e-5), Scalar(1e-4), Scalar(3e-4)},
                                   Scalar(98) / Scalar(100)};
-  NoiseLevels<6, Scalar> force_noise_{{Scalar(1e-4), Scalar(1e-3), Scalar(3e-3), Scalar(1e-2), Scalar(3e-2), Scalar(1e-1)},
-                                      Scalar(98) / Scalar(100)};
+  NoiseLevels<6, Scalar> force_noise_{
+      {Scalar(1e-4), Scalar(1e-3), Scalar(3e-3), Scalar(1e-2), Scalar(3e-2), Scalar(1e-1)}, Scalar(98) / Scalar(100)};
   ScaleChange<Scalar> scale_{typename ScaleChange<Scalar>::Settings{}};
   Scalar residual_left_{1};
   Matrix3 W_ = Matrix3::Zero();

@@ -16,8 +16,8 @@
 
 namespace limpid {
 
-/// Learns the tissue's whole force law, and replays it from the newest sample's state over the operator's force up to now.
-/// One axis. See TissueLearner.
+/// Learns the tissue's whole force law, and replays it from the newest sample's state over the operator's force up to
+/// now. One axis. See TissueLearner.
 ///
 /// The learner's arrays are large (hundreds of kilobytes): keep the predictor where it stays.
 /// @tparam Capacity  ticks remembered, a power of two: at least from the sample before the newest to now
@@ -73,10 +73,10 @@ class CurvePredictor {
       point_ = {observation_.x, observation_.v, Scalar{0}, {}};
       status |= Status::not_finite;
     }
-    const Scalar a = learner_.started()
-                         ? (F_h[0] - learner_.law().force(learner_.state(), point_) -
-                            learner_.law().settings().tool_damping * point_.v) / mass_
-                         : Scalar{0};
+    const Scalar a = learner_.started() ? (F_h[0] - learner_.law().force(learner_.state(), point_) -
+                                           learner_.law().settings().tool_damping * point_.v) /
+                                              mass_
+                                        : Scalar{0};
     motion_.x[0] = point_.x;
     motion_.v[0] = point_.v;
     if (is_finite(a)) motion_.a[0] = a;
