@@ -3,6 +3,8 @@
 
 // Everything that needs no system library.
 
+#include <limpid/core/any_lane.hpp>
+#include <limpid/core/cholesky_3.hpp>
 #include <limpid/core/dormand_prince.hpp>
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
@@ -15,8 +17,10 @@
 #include <limpid/core/lane_power.hpp>
 #include <limpid/core/lane_select.hpp>
 #include <limpid/core/lanes.hpp>
+#include <limpid/core/quad.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
+#include <limpid/core/small_step_series.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
 #include <limpid/core/unroll.hpp>
@@ -34,8 +38,11 @@
 #include <limpid/environment/fixed.hpp>
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/maxwell_branches.hpp>
 #include <limpid/environment/operator_hand.hpp>
+#include <limpid/environment/presliding.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
+#include <limpid/environment/spline_knots.hpp>
 #include <limpid/environment/tangent_model.hpp>
 #include <limpid/environment/tool.hpp>
 #include <limpid/environment/unilateral.hpp>
@@ -50,12 +57,17 @@
 #include <limpid/estimation/frequency_identification.hpp>
 #include <limpid/estimation/information_series.hpp>
 #include <limpid/estimation/least_squares_flow.hpp>
+#include <limpid/estimation/noise_levels.hpp>
 #include <limpid/estimation/projection_rls.hpp>
+#include <limpid/estimation/scale_change.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
+#include <limpid/estimation/tissue_law.hpp>
+#include <limpid/estimation/tissue_learner.hpp>
 #include <limpid/estimation/ud_factors.hpp>
 
 #include <limpid/prediction/autoregressive_predictor.hpp>
 #include <limpid/prediction/cubic_hermite.hpp>
+#include <limpid/prediction/curve_predictor.hpp>
 #include <limpid/prediction/gain_table.hpp>
 #include <limpid/prediction/gains.hpp>
 #include <limpid/prediction/held_tangents.hpp>
@@ -65,6 +77,7 @@
 #include <limpid/prediction/linear_predictor.hpp>
 #include <limpid/prediction/mixture_weights.hpp>
 #include <limpid/prediction/model_predictor.hpp>
+#include <limpid/prediction/nonlinear_step.hpp>
 #include <limpid/prediction/predictor.hpp>
 #include <limpid/prediction/predictor_mixture.hpp>
 #include <limpid/prediction/quadratic_predictor.hpp>
@@ -183,6 +196,7 @@
 #include <limpid/robot/omni.hpp>
 #include <limpid/robot/omni_device.hpp>
 #include <limpid/robot/omni_kinematics.hpp>
+#include <limpid/robot/omni_lanes.hpp>
 #include <limpid/robot/omni_pose.hpp>
 #include <limpid/robot/robot.hpp>
 #include <limpid/robot/serial_chain.hpp>
