@@ -257,7 +257,7 @@ template <typename Array>
   }
 }
 
-/// ln x of each entry. As above: side by side to 0.8 units in the last place for positive normal numbers.
+/// ln x of each entry. As above: side by side to 0.85 units in the last place for positive normal numbers.
 /// @realtime  no allocation, no throw; one division and some 30 flops an entry
 template <typename Array>
 [[nodiscard]] Array logarithm(const Array& x) noexcept {

@@ -13,6 +13,9 @@ namespace limpid {
 ///
 ///     F = max(F_E, 0)  for x > 0,      F = 0  otherwise,       each axis for itself
 ///
+/// A predictor's constant gain that was designed for contact may be unstable outside, where neither stiffness nor
+/// damping holds the tool: see `ModelPredictor`.
+///
 /// Where it would pull the force is not phi' theta (`bilateral` is false): an estimator must not learn from such a
 /// sample.
 /// @tparam E  an environment whose axes do not feel each other
