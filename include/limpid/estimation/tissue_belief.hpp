@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/real.hpp>
+#include <limpid/environment/spline_knots.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace limpid {
+
+/// What is believed of a tissue: its law's range, the parameters' mean s and covariance P. The range grows where the
+/// tool goes; where it outgrows the coefficients the knots' spacing doubles.
+/// @tparam Law  TissueLaw
+/// @realtime    no allocation, no throw for built-in scalars; growth by one is O(states), a doubling O(states^2 times
+///              coefficients), rare
+template <typename Law>
+class TissueBelief {
+ public:
+  using Scalar = typename Law::Scalar;
+  using State = typename Law::State;
+  using Rows = Eigen::Matrix<Scalar, Law::states, 3>;
+  static constexpr int states = Law::states;
+  using Covariance = Eigen::Matrix<Scalar, states, states>;
+
+  struct Settings {
+    Scalar curvature{};                   ///< deviation of the slope's change over depth, (N/m)/sqrt(m)
+    Scalar damping_change{};              ///< deviation from one damper to the next, N s/m
+    Scalar most_slope{}, most_damping{};  ///< N/m, N s/m
+  };
+
+  TissueBelief(const Settings& settings, const Law& about) noexcept : law{about}, settings_{settings} {}
+
+  Law law;
+  State s = State::Zero();
+  Covariance P = Covariance::Zero();
+
+  /// Of a coefficient about the straight line through the two beside it, N^2.
+  [[nodiscard]] Scalar bend_variance() const noexcept {
+    const Scalar& h = law.knots().spacing();
+    return settings_.curvature * settings_.curvature * h * h * h;
+  }
+
+  /// Makes the law hold for depths from `low` to `high`, m.
+  void extend(const Scalar& low, const Scalar& high) noexcept {
+    auto& knots = law.knots();
+    const auto needed = [&] {
+      const int l = std::min(knots.low(), SplineKnots<Scalar>::cell(low / knots.spacing()) - 1);
+      const int h = std::max(knots.high(), SplineKnots<Scalar>::cell(high / knots.spacing()) + 2);
+      return std::pair{l, h};
+    };
+    for (int i = 0; i < 6 && needed().second - needed().first + 1 > Law::most_coefficients; ++i) coarsen();
+    const auto [l, h] = needed();
+    while (knots.high() < h && knots.count() < Law::most_coefficients) grow(knots.high(), 1);
+    while (knots.low() > l && knots.count() < Law::most_coefficients) grow(knots.low(), -1);
+    auto& dampers = law.dampers();
+    const Scalar& width = law.settings().damper_spacing;
+    const int dl = SplineKnots<Scalar>::cell(low / width), dh = SplineKnots<Scalar>::cell(high / width) + 1;
+    while (dampers.high < dh && dampers.high - dampers.low + 1 < Law::most_dampers) grow_damper(dampers.high, 1);
+    while (dampers.low > dl && dampers.high - dampers.low + 1 < Law::most_dampers) grow_damper(dampers.low, -1);
+  }
+
+  /// Takes slopes, dampings, friction and branches of x to the nearest physical ones in P's metric, x - s = P u.
+  void keep_physical(State& x, State& u) const noexcept {
+    const auto move = [&](int place, const Scalar& by) {
+      const Scalar& variance = P(place, place);
+      if (!(variance > Scalar(1) / Scalar(1'000'000'000'000))) return;
+      x += P.col(place) * (by / variance);
+      u[place] += by / variance;
+    };
+    const Scalar per = Scalar{1} / law.knots().spacing();
+    for (int pass = 0; pass < 3; ++pass) {
+      bool any = false;
+      for (int j = law.knots().low(); j < law.knots().high(); ++j) {
+        const int a = Law::coefficient(j), b = Law::coefficient(j + 1);
+        const Scalar slope = (x[b] - x[a]) * per;
+        const Scalar wanted = std::clamp(slope, Scalar{0}, settings_.most_slope);
+        if (slope >= Scalar{-1} && slope <= settings_.most_slope + Scalar{1}) continue;
+        const Scalar variance = (P(b, b) - Scalar{2} * P(a, b) + P(a, a)) * per * per;
+        if (!(variance > Scalar(1) / Scalar(1'000'000'000'000))) continue;
+        const Scalar l = (wanted - slope) / variance * per;
+        x += (P.col(b) - P.col(a)) * l;
+        u[b] += l;
+        u[a] -= l;
+        any = true;
+      }
+      for (int i = 0; i < Law::branches; ++i) {
+        if (x[Law::first_branch + i] < Scalar{0}) move(Law::first_branch + i, -x[Law::first_branch + i]);
+      }
+      if (x[Law::friction] < Scalar{0}) move(Law::friction, -x[Law::friction]);
+      for (int j = law.dampers().low; j <= law.dampers().high; ++j) {
+        const Scalar b = x[Law::damper(j)], wanted = std::clamp(b, Scalar{0}, settings_.most_damping);
+        if (b == wanted) continue;
+        move(Law::damper(j), wanted - b);
+        any = true;
+      }
+      if (!any) break;
+    }
+  }
+
+  /// P H of three measurements, by the columns of P that have a say.
+  void project_rows(const Rows& H, Rows& PH) const noexcept {
+    PH.setZero();
+    for (int i = 0; i < states; ++i) {
+      if (H(i, 0) == Scalar{0} && H(i, 1) == Scalar{0} && H(i, 2) == Scalar{0}) continue;
+      for (int k = 0; k < 3; ++k) PH.col(k) += P.col(i) * H(i, k);
+    }
+  }
+
+ private:
+  // A parameter that is a sum of others, and a variance of its own.
+  void derive(int place, const Scalar& a, int first, const Scalar& b, int second, const Scalar& variance) noexcept {
+    s[place] = a * s[first] + b * s[second];
+    State row = a * P.col(first) + b * P.col(second);
+    row[place] = a * row[first] + b * row[second] + variance;
+    P.col(place) = row;
+    P.row(place) = row.transpose();
+  }
+
+  void grow(int edge, int direction) noexcept {
+    derive(Law::coefficient(edge + direction), Scalar{2}, Law::coefficient(edge), Scalar{-1},
+           Law::coefficient(edge - direction), bend_variance());
+    if (direction > 0) {
+      law.knots().extend_up();
+    } else {
+      law.knots().extend_down();
+    }
+  }
+
+  void grow_damper(int edge, int direction) noexcept {
+    derive(Law::damper(edge + direction), Scalar{1}, Law::damper(edge), Scalar{0}, Law::damper(edge),
+           settings_.damping_change * settings_.damping_change);
+    (direction > 0 ? law.dampers().high : law.dampers().low) += direction;
+  }
+
+  // Twice the spacing: coefficients from the curve at the knots that stay, c_j = (8 f_j - f_j-1 - f_j+1)/6, which is
+  // exact for cubics. Rare.
+  void coarsen() noexcept {
+    auto& knots = law.knots();
+    const int low = knots.inner_low_of_coarse(), high = knots.inner_high_of_coarse(), count = high - low + 3;
+    const SplineKnots<Scalar> fine = knots;
+    // rows of the map from fine to coarse coefficients: at most nine entries about 2 J
+    const auto add_value = [&](int J, const Scalar& weight, Weights& to) {
+      for (int k = -1; k <= 1; ++k) {
+        to[std::size_t(2 * J + k - fine.low())] += weight * (k == 0 ? Scalar(4) : Scalar(1)) / Scalar(6);
+      }
+    };
+    const auto add_straight = [&](int J, const Scalar& weight, Weights& to) {
+      const int inside = std::clamp(J, low, high), beside = J < low ? low + 1 : high - 1;
+      if (J == inside) return add_value(J, weight, to);
+      add_value(inside, Scalar(2) * weight, to);
+      add_value(beside, -weight, to);
+    };
+    for (int j = fine.low(); j <= fine.high(); ++j) order_[std::size_t(j - fine.low())] = Law::coefficient(j);
+    for (int i = 0; i < count; ++i) {
+      Weights& row = map_[std::size_t(i)];
+      row.fill(Scalar{0});
+      add_straight(low - 1 + i, Scalar(8) / Scalar(6), row);
+      add_straight(low - 2 + i, Scalar(-1) / Scalar(6), row);
+      add_straight(low + i, Scalar(-1) / Scalar(6), row);
+    }
+    remap(fine.count(), count);
+    knots.coarsen();
+    scatter(low - 1, count);
+  }
+
+  using Weights = std::array<Scalar, std::size_t(Law::most_coefficients)>;
+
+  // s and P of `fine` ordered coefficients to `count` mapped ones, which are left in the first places of the ring.
+  void remap(int fine, int count) noexcept {
+    const auto places = [&](int i) { return order_[std::size_t(i)]; };
+    const auto mapped = [&](const auto& value) {
+      Weights result{};
+      for (int i = 0; i < count; ++i) {
+        Scalar sum{0};
+        for (int k = 0; k < fine; ++k) sum += map_[std::size_t(i)][std::size_t(k)] * value(places(k));
+        result[std::size_t(i)] = sum;
+      }
+      return result;
+    };
+    const Weights c = mapped([&](int k) { return s[k]; });
+    for (int column = 0; column < states; ++column) {
+      const Weights m = mapped([&](int k) { return P(k, column); });
+      P.col(column).template tail<Law::most_coefficients>().setZero();
+      for (int i = 0; i < count; ++i) P(Law::first_coefficient + i, column) = m[std::size_t(i)];
+    }
+    for (int row = 0; row < states; ++row) {
+      const Weights m = mapped([&](int k) { return P(row, k); });
+      P.row(row).template tail<Law::most_coefficients>().setZero();
+      for (int i = 0; i < count; ++i) P(row, Law::first_coefficient + i) = m[std::size_t(i)];
+    }
+    s.template tail<Law::most_coefficients>().setZero();
+    for (int i = 0; i < count; ++i) s[Law::first_coefficient + i] = c[std::size_t(i)];
+  }
+
+  // From the first places of the ring to those of the coefficients from `low` on.
+  void scatter(int low, int count) noexcept {
+    const int shift = Law::coefficient(low) - Law::first_coefficient;
+    const auto turn = [&](auto&& entry) {
+      Weights kept{};
+      for (int i = 0; i < Law::most_coefficients; ++i) kept[std::size_t(i)] = entry(Law::first_coefficient + i);
+      for (int i = 0; i < Law::most_coefficients; ++i) {
+        entry(Law::first_coefficient + (i + shift) % Law::most_coefficients) = kept[std::size_t(i)];
+      }
+    };
+    turn([&](int i) -> Scalar& { return s[i]; });
+    for (int k = 0; k < states; ++k) turn([&](int i) -> Scalar& { return P(i, k); });
+    for (int k = 0; k < states; ++k) turn([&](int i) -> Scalar& { return P(k, i); });
+    for (int i = 0; i < count; ++i) {
+      const int place = Law::coefficient(low + i);
+      P(place, place) += bend_variance() / Scalar(10000);
+    }
+  }
+
+  Settings settings_;
+  std::array<int, std::size_t(Law::most_coefficients)> order_{};
+  std::array<Weights, std::size_t(Law::most_coefficients)> map_{};
+};
+
+}  // namespace limpid
