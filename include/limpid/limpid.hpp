@@ -56,6 +56,7 @@
 #include <limpid/estimation/exponential_mean.hpp>
 #include <limpid/estimation/frequency_identification.hpp>
 #include <limpid/estimation/information_series.hpp>
+#include <limpid/estimation/largest_eigenvalue.hpp>
 #include <limpid/estimation/least_squares_flow.hpp>
 #include <limpid/estimation/noise_levels.hpp>
 #include <limpid/estimation/projection_rls.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/estimation/projection_rls.hpp>
+#include <limpid/estimation/symmetric_eigenvalues.hpp>
 
 #include <doctest/doctest.h>
 

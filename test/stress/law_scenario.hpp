@@ -8,6 +8,7 @@
 #include "trial.hpp"
 
 #include <limpid/estimation/projection_rls.hpp>
+#include <limpid/estimation/symmetric_eigenvalues.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/lane_select.hpp>
 #include <limpid/estimation/any_above.hpp>
 #include <limpid/estimation/exponential_mean.hpp>
 #include <limpid/estimation/information_series.hpp>
 
 #include <Eigen/Core>
+
+#include <algorithm>
+#include <limits>
 
 namespace limpid {
 
@@ -21,9 +25,9 @@ namespace limpid {
 ///
 ///     (exp(l) - exp(p l)) / (1 - p) + nu s (exp(p l) - 1) / p = s (T - 1) / alpha
 ///
-/// For small z = s (T - 1) / (alpha (1 + nu s)) the solution is a series in z. Else: the left side grows and is convex
-/// in l, so that Newton's iteration from above falls onto the root. It runs on the ratio of l to its bound z, which is
-/// 1 at s = 0: no case is apart.
+/// For small z = s (T - 1) / (alpha (1 + nu s)) the solution is a series in z, set up for the alpha constructed with
+/// and for alpha = 0. Else: the left side grows and is convex in l, so that Newton's iteration from above falls onto
+/// the root. It runs on the ratio of l to its bound z, which is 1 at s = 0: no case is apart.
 template <typename Array>
 class LeastSquaresFlow {
  public:
@@ -31,13 +35,20 @@ class LeastSquaresFlow {
 
   /// @param alpha  forgetting, 1/s, >= 0
   /// @param nu     normalisation, s, >= 0, with alpha nu < 1
-  LeastSquaresFlow(const Scalar& alpha, const Scalar& nu) noexcept : nu_{nu}, series_{Scalar(alpha * nu)} {}
+  LeastSquaresFlow(const Scalar& alpha, const Scalar& nu) noexcept
+      : nu_{nu},
+        series_{Scalar(alpha * nu)},
+        series_at_rest_{Scalar{0}},
+        longest_{std::min(series_.most(), series_at_rest_.most())} {}
+
+  /// How a step's forgetting compares with alpha as constructed, in all lanes.
+  enum class Extent { whole, whole_or_none, any };
 
   /// Forgetting over a step, by lanes.
   struct Forgetting {
     Array exponent;                                                                      ///< alpha t, >= 0
     Array mean;                                                                          ///< of exp over [0, alpha t]
-    bool whole = true;                                                                   ///< alpha as constructed
+    Extent extent = Extent::whole;                                                       ///< of the exponent
     [[nodiscard]] Array growth() const noexcept { return Scalar{1} + exponent * mean; }  ///< T
   };
 
@@ -49,8 +60,12 @@ class LeastSquaresFlow {
     const Array inverse = (Scalar{1} + nu_ * s).inverse();
     const Array z = reach * inverse;
     if constexpr (InformationSeries<Array>::exists) {
-      if (forgetting.whole && !any_above(z, series_.most())) [[likely]]
-        return (tau * inverse) * series_(z, inverse);
+      if (!any_above(z, longest_) && forgetting.extent != Extent::any) [[likely]] {
+        const Array by_series = tau * inverse * series_(z, inverse);
+        if (forgetting.extent == Extent::whole) [[likely]]
+          return by_series;
+        return where_positive<Array>(forgetting.exponent, by_series, tau * inverse * series_at_rest_(z, inverse));
+      }
     }
     return iterated(forgetting, t, s);
   }
@@ -126,7 +141,8 @@ class LeastSquaresFlow {
   };
 
   Scalar nu_;
-  InformationSeries<Array> series_;
+  InformationSeries<Array> series_, series_at_rest_;
+  Scalar longest_;  // z of both
 };
 
 }  // namespace limpid

@@ -4,6 +4,8 @@
 #include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/flat.hpp>
+#include <limpid/core/lane_exponential.hpp>
+#include <limpid/core/lane_select.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
@@ -38,7 +40,8 @@ namespace limpid {
 /// Windup: (4.45) as printed stops altogether once lambda_max(Gamma) passes rho_M, and then never moves again. Here
 /// only the forgetting stops: a step that starts from Gamma uses, in place of alpha, the largest alpha' <= alpha for
 /// which exp(alpha' dt) lambda_max(Gamma) <= rho_M. lambda_max(Gamma) <= rho_M holds always, to the roundings of the
-/// factors in one step (16 at most, of rho_M): the next step starts by taking them back, lest they add up.
+/// factors in one step (16 at most, of rho_M): the next step starts by taking them back, lest they add up. Where alpha'
+/// would make up for eight of them or less it is 0, so that axes at rest take the series.
 ///
 /// Projection: the step is taken freely and then brought back to the box in the metric of Gamma^-1 (`project_on_box`).
 /// @tparam N     parameters of an axis
@@ -204,10 +207,9 @@ class ProjectionRLS {
 
   // alpha dt, less where Gamma would grow past rho_M; what roundings have taken past it is taken back.
   bool windup(Factorised& Gamma, typename Flow::Forgetting& less) const noexcept {
-    const Array bound = forgetting_.growth() * Gamma.trace();  // >= T lambda_max
-    if (!any_above(bound, rho_M_)) [[likely]]
+    if (!any_above(Array(forgetting_.growth() * Gamma.trace()), rho_M_)) [[likely]]  // trace >= lambda_max
       return false;
-    forget_less(bound, Gamma, less);
+    forget_less(Gamma, less);
     return true;
   }
 
@@ -217,21 +219,40 @@ class ProjectionRLS {
     forgetting_.mean = exponential_mean(forgetting_.exponent);
   }
 
-  [[gnu::noinline]] void forget_less(const Array& bound, Factorised& Gamma,
-                                     typename Flow::Forgetting& less) const noexcept {
-    using std::log;
-    Array exponent = forgetting_.exponent, room = Array::Constant(std::numeric_limits<Scalar>::max());
+  // Apart, so that the tick without it stays small. At rest Gamma stays at rho_M, to roundings: it is left there.
+  [[gnu::noinline]] void forget_less(Factorised& Gamma, typename Flow::Forgetting& less) const noexcept {
+    flat<Scalar>([&]() noexcept {
+      using Limits = std::numeric_limits<Scalar>;
+      const Scalar none{0}, one{1}, two{2}, roundings = Scalar{4} * Limits::epsilon();
+      const Array room = Gamma.largest_eigenvalue(one / rho_M_).inverse().min(Limits::max());  // rho_M / lambda_max
+      Gamma.scale(room.min(one));
+      const Array whole = forgetting_.growth() - one, free = (room - one).max(none).min(two * whole);
+      if (any_above(Array((free - roundings).min(whole - free)), none)) {
+        forget_partly(room, free, less);
+      } else {
+        const Array above = two * free - whole;  // far above zero or below
+        less.exponent = where_positive<Array>(above, forgetting_.exponent, Array::Zero());
+        less.mean = where_positive<Array>(above, forgetting_.mean, Array::Ones());
+        less.extent = Flow::Extent::whole_or_none;
+      }
+    });
+  }
+
+  void forget_partly(const Array& room, const Array& free, typename Flow::Forgetting& less) const noexcept {
+    less.exponent = logarithm_of_one_plus<Array>(free).min(forgetting_.exponent);
+    less.mean = exponential_mean(less.exponent);
+    less.extent = Flow::Extent::any;
+    if (any_above(less.exponent, Scalar{1})) less.mean = kept_within(room, less);
+  }
+
+  // exp(log(room)) has more roundings than room, the larger the more.
+  static Array kept_within(const Array& room, const typename Flow::Forgetting& less) noexcept {
+    Array mean = less.mean;
     for (int lane = 0; lane < lanes; ++lane) {
-      if (!(bound[lane] > rho_M_)) continue;
-      room[lane] = rho_M_ / Gamma.largest_eigenvalue(lane);
-      exponent[lane] = std::clamp(Scalar(log(room[lane])), Scalar{0}, exponent[lane]);
+      const Scalar exponent = less.exponent[lane];
+      if (exponent > Scalar{1}) mean[lane] = std::min(mean[lane], Scalar((room[lane] - Scalar{1}) / exponent));
     }
-    Gamma.scale(room.min(Scalar{1}));
-    less = {exponent, exponential_mean(exponent), false};
-    for (int lane = 0; lane < lanes; ++lane) {  // exp(log(room)) has more roundings than room, the larger the more
-      if (exponent[lane] > Scalar{1})
-        less.mean[lane] = std::min(less.mean[lane], (room[lane] - Scalar{1}) / exponent[lane]);
-    }
+    return mean;
   }
 
   Status project(State& next) const noexcept {

@@ -4,7 +4,7 @@
 #include <limpid/core/real.hpp>
 #include <limpid/core/unroll.hpp>
 #include <limpid/estimation/any_above.hpp>
-#include <limpid/estimation/symmetric_eigenvalues.hpp>
+#include <limpid/estimation/largest_eigenvalue.hpp>
 
 #include <Eigen/Core>
 
@@ -132,8 +132,22 @@ class UDFactors {
     return upper * D(lane).asDiagonal() * upper.transpose();
   }
 
-  [[nodiscard]] Scalar largest_eigenvalue(int lane) const noexcept {
-    return symmetric_eigenvalues<N, Scalar>(product(lane)).maxCoeff();
+  /// lambda_max(Gamma) times `scale`, which takes Gamma's entries to where their squares do not overflow.
+  [[nodiscard]] Array largest_eigenvalue(const Scalar& scale) const noexcept {
+    SymmetricLanes<N, Array> product;
+    LIMPID_UNROLL
+    for (std::size_t j = 0; j < n; ++j) {
+      const Array d = D_[j] * scale;
+      LIMPID_UNROLL
+      for (std::size_t i = 0; i < j; ++i) {
+        const Array column = U_[at(i, j)] * d;
+        LIMPID_UNROLL
+        for (std::size_t k = i; k < j; ++k) product(int(i), int(k)) += column * U_[at(k, j)];
+        product(int(i), int(j)) = column;
+      }
+      product(int(j), int(j)) = d;
+    }
+    return limpid::largest_eigenvalue<N, Array>(product);
   }
 
  private:
