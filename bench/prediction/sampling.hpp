@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "prediction/truth.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace limpid::bench {
+
+/// How the slow environment sees and sends.
+struct Sensing {
+  double force_noise = 0, position_noise = 0, velocity_noise = 0;  ///< standard deviations, N, m, m/s
+  double position_step = 0, force_step = 0;                        ///< quantisation, m, N; none: 0
+  double jitter = 0;                                               ///< of an instant, at most, in periods
+  double loss = 0;                                                 ///< probability
+};
+
+/// Of the tool, in ticks: it arrives a period after it was taken.
+struct SensedSample {
+  std::size_t taken = 0, arrived = 0;
+  double x = 0, v = 0, F_e = 0;  ///< m, m/s, N
+};
+
+/// In the order of their instants; the first one is taken at the start.
+/// @param period  ticks
+[[nodiscard]] std::vector<SensedSample> sampled(const Truth& truth, std::size_t period, const Sensing& sensing,
+                                                std::uint32_t seed);
+
+/// The same for the same name everywhere, whatever else is run.
+[[nodiscard]] std::uint32_t seed_of(const std::string& name);
+
+}  // namespace limpid::bench

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "prediction/tissue.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace limpid::bench {
+
+inline constexpr double tick_seconds = 0.001;
+inline constexpr double tool_mass = 0.1;     // kg
+inline constexpr double tool_damping = 0.1;  // N s/m
+
+/// The force of a tissue that changes; its elastic part known within a range of depths, beyond it its tangent.
+class TissueForce {
+ public:
+  /// @param step_at  when the stiffness steps, s
+  TissueForce(Tissue tissue, const TissueChange& change, double step_at)
+      : tissue_{std::move(tissue)}, change_{change}, step_at_{step_at} {}
+
+  void steps_at(double time) { step_at_ = time; }
+
+  void know(double lower, double upper) {
+    lower_ = lower;
+    upper_ = upper;
+    lower_slope_ = slope(lower);
+    upper_slope_ = slope(upper);
+  }
+
+  /// @param q  force of the Maxwell branch, N
+  [[nodiscard]] double operator()(double t, double x, double v, double q) const {
+    const double known = std::clamp(x, lower_, upper_);
+    if (tissue_.edge && x <= *tissue_.edge) return 0;
+    double elastic = tissue_.elastic(known);
+    if (x != known) elastic += (x < known ? lower_slope_ : upper_slope_) * (x - known);
+    const double stiffness = (t >= step_at_ ? change_.step : 1) * (1 - change_.softening * t);
+    const double damping = tissue_.damping + change_.damping_growth * std::max(known, 0.0);
+    const double force = stiffness * elastic + damping * v + q;
+    return tissue_.edge ? std::max(force, 0.0) : force;
+  }
+
+  [[nodiscard]] const TissueChange& change() const { return change_; }
+
+ private:
+  [[nodiscard]] double slope(double x) const {
+    constexpr double d = 1e-8;  // m
+    return (tissue_.elastic(x + d) - tissue_.elastic(x - d)) / (2 * d);
+  }
+
+  Tissue tissue_;
+  TissueChange change_;
+  double step_at_;
+  double lower_ = -std::numeric_limits<double>::infinity(), upper_ = std::numeric_limits<double>::infinity();
+  double lower_slope_ = 0, upper_slope_ = 0;
+};
+
+/// The tool (3.29) in a tissue, by steps of Runge and Kutta's fourth order; Coulomb friction holds it where it can.
+class ToolInTissue {
+ public:
+  struct State {
+    double x = 0, v = 0;  ///< m, m/s
+    double q = 0;         ///< of the Maxwell branch, N
+    bool stuck = true;    ///< read with friction only
+  };
+
+  explicit ToolInTissue(TissueForce force) : force_{std::move(force)} {}
+
+  [[nodiscard]] TissueForce& tissue() { return force_; }
+
+  /// A tick from `begin`, s, over which the operator's force goes from F_0 to F_1 in a straight line.
+  void advance(State& s, double begin, double F_0, double F_1, int steps) const {
+    const double h = tick_seconds / steps;
+    for (int i = 0; i < steps; ++i) {
+      const double before = F_0 + (F_1 - F_0) * i / steps, after = F_0 + (F_1 - F_0) * (i + 1) / steps;
+      step(s, begin + i * h, before, after, h);
+    }
+  }
+
+  /// With which the tissue pushes back, friction included, N.
+  [[nodiscard]] double force(const State& s, double t, double F_h) const {
+    const double F_c = force_.change().friction;
+    if (!(F_c > 0)) return force_(t, s.x, s.v, s.q);
+    if (s.stuck) return force_(t, s.x, 0, s.q) + std::clamp(F_h - force_(t, s.x, 0, s.q), -F_c, F_c);
+    return force_(t, s.x, s.v, s.q) + std::copysign(F_c, s.v);
+  }
+
+ private:
+  struct Slope {
+    double x, v, q;
+  };
+
+  void step(State& s, double t, double before, double after, double h) const {
+    const double F_c = force_.change().friction;
+    double direction = s.v > 0 ? 1 : s.v < 0 ? -1 : 0;
+    if (F_c > 0 && s.stuck) {
+      const double net = before - force_(t, s.x, 0, s.q);
+      if (std::abs(net) <= F_c) {
+        s.q *= std::exp(-h / force_.change().lag);
+        return;
+      }
+      s.stuck = false;
+      direction = net > 0 ? 1 : -1;
+    }
+    const State next = moved(s, t, before, after, h, F_c * direction);
+    const bool turned = F_c > 0 && next.v * direction < 0;
+    s = next;
+    if (turned && std::abs(after - force_(t + h, s.x, 0, s.q)) <= F_c) {
+      s.stuck = true;
+      s.v = 0;
+    }
+  }
+
+  [[nodiscard]] State moved(const State& s, double t, double before, double after, double h, double friction) const {
+    const auto slope = [&](double part, const Slope& k) {
+      const double at = part * h, x = s.x + at * k.x, v = s.v + at * k.v, q = s.q + at * k.q;
+      const double F_h = before + (after - before) * part;
+      return Slope{v, (F_h - tool_damping * v - force_(t + at, x, v, q) - friction) / tool_mass,
+                   force_.change().relaxation * v - q / force_.change().lag};
+    };
+    const Slope k1 = slope(0, {0, 0, 0}), k2 = slope(0.5, k1), k3 = slope(0.5, k2), k4 = slope(1, k3);
+    return {s.x + h / 6 * (k1.x + 2 * k2.x + 2 * k3.x + k4.x), s.v + h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v),
+            s.q + h / 6 * (k1.q + 2 * k2.q + 2 * k3.q + k4.q), false};
+  }
+
+  TissueForce force_;
+};
+
+}  // namespace limpid::bench
