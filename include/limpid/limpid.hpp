@@ -62,8 +62,11 @@
 #include <limpid/estimation/projection_rls.hpp>
 #include <limpid/estimation/scale_change.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
+#include <limpid/estimation/tissue_belief.hpp>
 #include <limpid/estimation/tissue_law.hpp>
 #include <limpid/estimation/tissue_learner.hpp>
+#include <limpid/estimation/tissue_learner_settings.hpp>
+#include <limpid/estimation/tissue_replay.hpp>
 #include <limpid/estimation/ud_factors.hpp>
 
 #include <limpid/prediction/autoregressive_predictor.hpp>
