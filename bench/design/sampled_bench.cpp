@@ -7,6 +7,7 @@
 #include <limpid/design/sampled_proof.hpp>
 #include <limpid/design/sampled_stability.hpp>
 #include <limpid/design/sampled_varying.hpp>
+#include <support/maximum.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -20,6 +21,7 @@ namespace {
 
 using namespace limpid;
 using limpid::test::box;
+using limpid::test::maximum;
 using limpid::test::tool;
 
 constexpr int side = 256;
@@ -60,7 +62,7 @@ void map(benchmark::State& state, double delay, Radius&& radius) {
     for (int j = 0; j < side; j += 5) {
       const Tissue<> at = cell(i, j);
       const auto r = exact.radius({at.stiffness, at.damping}, L.cast<long double>());
-      error = std::max(error, std::abs(static_cast<double>(r - static_cast<long double>(radius(stability, at, L)))));
+      error = maximum(error, std::abs(static_cast<double>(r - static_cast<long double>(radius(stability, at, L)))));
     }
   }
   state.counters["cells"] = side * side;
@@ -145,7 +147,7 @@ void delay_root_map(benchmark::State& state) {
     for (int j = 0; j < 64; j += 9) {
       const auto root = rightmost_delay_root(system, cell(4 * i, 4 * j), L);
       const auto other = collocated_delay_roots(system, cell(4 * i, 4 * j), L);
-      error = std::max(error, std::abs(root - other.front()) / std::abs(root));
+      error = maximum(error, std::abs(root - other.front()) / std::abs(root));
     }
   }
   state.counters["cells"] = 64 * 64;

@@ -4,6 +4,8 @@
 // some differ, or where the Omni's take more than is asked; the chain of six joints is shown beside it.
 #include "peers/function.hpp"
 
+#include <support/maximum.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -55,9 +57,8 @@ double difference(const Function& theirs, const Function& ours) {
   double difference = 0, largest = 0;
   for (std::size_t i = 0; i < motions_in_all; ++i) {
     const Eigen::MatrixXd expected = ours.at(i);
-    largest = std::max(largest, expected.lpNorm<Eigen::Infinity>());
-    const double here = (theirs.at(i) - expected).lpNorm<Eigen::Infinity>();
-    difference = here <= difference ? difference : here;  // NaN too
+    largest = limpid::test::maximum(largest, limpid::test::largest_entry(expected));
+    difference = limpid::test::maximum(difference, limpid::test::largest_entry(theirs.at(i) - expected));
   }
   return difference / largest;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -43,10 +43,10 @@ struct Case {
     for (std::size_t i = 0; i < of[s].size(); ++i) {
       const Fifty here = abs(of[s][i] - from[s][i]);
       if (!isfinite(here)) return std::numeric_limits<double>::infinity();
-      error = std::max(error, here);
-      size = std::max<Fifty>(size, abs(scale[s][i]));
+      error = test::maximum(error, here);
+      size = test::maximum(size, Fifty(abs(scale[s][i])));
     }
-    largest = std::max(largest, static_cast<double>(Fifty(error / size)));
+    largest = test::maximum(largest, static_cast<double>(Fifty(error / size)));
   }
   return largest;
 }

@@ -2,6 +2,7 @@
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/robot/omni.hpp>
 
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 #include <support/pendulum.hpp>
 
@@ -17,6 +18,8 @@ using limpid::DesiredJoints;
 using limpid::JointState;
 using limpid::Omni;
 using limpid::Status;
+using limpid::test::largest_entry;
+using limpid::test::maximum;
 using limpid::test::Pendulum;
 
 namespace {
@@ -72,7 +75,7 @@ TEST_CASE_TEMPLATE("under its torque the arm obeys (4.4): H delta' + (C + B + Kd
     const Vector<Scalar> delta = is.qdot - wanted.qdot + Lambda.cwiseProduct(is.q - wanted.q);          // (4.1), (4.3)
     const Vector<Scalar> delta_dot = qddot - wanted.qddot + Lambda.cwiseProduct(is.qdot - wanted.qdot);
     const Vector<Scalar> left = H * delta_dot + (C + B) * delta + Kd.cwiseProduct(delta);
-    worst = std::max(worst, left.cwiseAbs().maxCoeff());
+    worst = maximum(worst, largest_entry(left));
   }
   // some 100 roundings of torques below 8 N m, through an H of condition 10
   CHECK(worst < 1000 * std::numeric_limits<Scalar>::epsilon());

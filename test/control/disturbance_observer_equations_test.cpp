@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/control/disturbance_observer.hpp>
 #include <support/disturbance_observer.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -15,6 +16,7 @@
 using namespace limpid;
 using namespace limpid::test;
 using namespace std::chrono_literals;
+using limpid::test::maximum;
 
 namespace {
 
@@ -80,8 +82,8 @@ TEST_CASE_TEMPLATE("the force solves the algebraic loop, for random plants and s
         d_hat[0] += N[j] * force[j] - P[j] * velocity[j] - D[j] * d_hat[j];
       }
       d_hat[0] /= D[0];
-      largest = std::max(largest, std::abs(asked));
-      worst = std::max(worst, std::abs(d_hat[0] - output.disturbance[0]));
+      largest = maximum(largest, std::abs(asked));
+      worst = maximum(worst, std::abs(d_hat[0] - output.disturbance[0]));
     }
     // D's roots may lie as near to 1 as 1 - .03, three of them together: its sums cancel to .03^3 and less
     CHECK(worst < 1e-8 * largest);
@@ -123,7 +125,7 @@ TEST_CASE("by Tustin and Euler a ramp is followed to their order over irregular 
       const double t = in_seconds(now), exact = t + tau * std::expm1(-t / tau);
       // a command that keeps the device's force at 0 but for the error, which the loop raises by 1/(1 - q_0)
       const auto output = tick(observer, now, Vector(-exact), Vector(t), Vector(0.0), Vector(0.0));
-      worst = std::max(worst, std::abs(output.disturbance[0] - exact));
+      worst = maximum(worst, std::abs(output.disturbance[0] - exact));
     }
     CHECK(worst < (1 + h / tau) * (tustin ? tau * (h / tau) * (h / tau) / 12 : h / 2));
   }
@@ -150,7 +152,7 @@ TEST_CASE("in double it is itself in 50 digits to some roundings") {
       const auto d = tick(rounded, now, One(command), One(hand), One(v), One(applied)).disturbance[0];
       const auto reference = tick(exact, now, OneFifty(Fifty(command)), OneFifty(Fifty(hand)), OneFifty(Fifty(v)),
                                   OneFifty(Fifty(applied)));
-      worst = std::max(worst, std::abs(static_cast<double>(Fifty(d - reference.disturbance[0]))));
+      worst = maximum(worst, std::abs(static_cast<double>(Fifty(d - reference.disturbance[0]))));
     }
     // forces to 2 N, rounded some 12 times a tick and remembered for 1/(1 - exp(-h/tau)) = 4 ticks, thrice in a row
     CHECK(worst < 12 * 4 * 3 * 2 * std::numeric_limits<double>::epsilon());

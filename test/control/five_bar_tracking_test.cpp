@@ -3,6 +3,7 @@
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/core/dormand_prince.hpp>
 #include <limpid/robot/five_bar.hpp>
+#include <support/maximum.hpp>
 
 #include "support/no_allocation.hpp"
 
@@ -10,13 +11,13 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 using Eigen::Vector2d;
 using limpid::DesiredJoints, limpid::FiveBar, limpid::JointState, limpid::SlotineLiAdaptive, limpid::Status;
 using limpid::Time;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -94,10 +95,10 @@ TEST_CASE("a five-bar with parameters half known follows sines ever better, and 
     const auto output = controller.update(k * 1ms, device.state(), sine(t), {0, 0, 0});
     const double now = V(t), error = (device.state().q - sine(t).q).norm();
     if (k == 0) start = now;
-    if (k > 0) worst_rise = std::max(worst_rise, now - before);
+    if (k > 0) worst_rise = maximum(worst_rise, now - before);
     before = now;
-    if (k < second) first = std::max(first, k < 200 ? 0 : error);  // once the start is forgotten
-    if (k >= ticks - second) last = std::max(last, error);
+    if (k < second) first = maximum(first, k < 200 ? 0 : error);  // once the start is forgotten
+    if (k >= ticks - second) last = maximum(last, error);
     status |= output.status | device.hold(output.tau, t, 1e-3);
   }
   CHECK(status == Status::ok);
@@ -115,8 +116,8 @@ TEST_CASE("without adaptation the same controller keeps its error") {
   double second = 0, fourth = 0;
   for (int k = 0; k < 4000; ++k) {
     const double t = 1e-3 * k, error = (device.state().q - sine(t).q).norm();
-    if (k >= 1000 && k < 2000) second = std::max(second, error);
-    if (k >= 3000) fourth = std::max(fourth, error);
+    if (k >= 1000 && k < 2000) second = maximum(second, error);
+    if (k >= 3000) fourth = maximum(fourth, error);
     (void)device.hold(controller.update(k * 1ms, device.state(), sine(t), {0, 0, 0}).tau, t, 1e-3);
   }
   CHECK(second > 0.01);

@@ -2,6 +2,7 @@
 // A million random states and torques, judged by formulas that share nothing with the limiter but the pose.
 #include <limpid/control/safety_limiter.hpp>
 #include <limpid/robot/omni.hpp>
+#include <support/maximum.hpp>
 
 #include <Eigen/LU>
 
@@ -17,6 +18,8 @@ using limpid::Omni;
 using limpid::SafetyLimiter;
 using limpid::Status;
 using limpid::Time;
+using limpid::test::largest_entry;
+using limpid::test::maximum;
 
 namespace {
 
@@ -140,7 +143,7 @@ TEST_CASE("the torque that passes is continuous in q: less than 20 N m per rad, 
     if (q[1] + q[2] > 0.214) continue;
     const double step = 1e-6;
     const Vector<double> moved = q + step * draw().normalized();
-    steepest = std::max(steepest, (settled(moved, wanted) - settled(q, wanted)).lpNorm<Eigen::Infinity>() / step);
+    steepest = maximum(steepest, largest_entry(settled(moved, wanted) - settled(q, wanted)) / step);
   }
   MESSAGE("steepest ", steepest, " N m/rad");
   CHECK(steepest < 20);

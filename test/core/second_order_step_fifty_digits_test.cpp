@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/core/second_order_step.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
 using limpid::SecondOrderStep;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -48,7 +49,7 @@ Fifty worst_error(int cases) {
         closed_form(Fifty(kappa), Fifty(beta), Fifty(h), {Fifty(x[0]), Fifty(v[0])}, Fifty(f0[0]), slope);
     step.advance(x, v, f0, f1);
     const Fifty error_x = abs(Fifty(x[0]) - exact.x), error_v = abs(Fifty(v[0]) - exact.v) / Fifty(beta);
-    worst = std::max({worst, error_x, error_v});
+    worst = maximum(worst, error_x, error_v);
   }
   return worst;
 }

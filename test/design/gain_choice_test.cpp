@@ -3,6 +3,7 @@
 #include "design_instances.hpp"
 
 #include <limpid/design/gain_choice.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -15,6 +16,7 @@ using limpid::PredictorDesign;
 using limpid::Tissue;
 using limpid::Verdict;
 using limpid::test::design_at;
+using limpid::test::maximum;
 
 namespace {
 
@@ -64,7 +66,7 @@ TEST_CASE("for several tissues the radius is the worst one's, and its gain is ce
   double worst = 0;
   for (const Tissue<>& tissue : tissues) {
     const limpid::SampledSystem<> system{.tool = design_at(0.016).tool, .period = 0.016, .delay = 0.016};
-    worst = std::max(worst, limpid::sampled_radius(system, tissue, choice.gain));
+    worst = maximum(worst, limpid::sampled_radius(system, tissue, choice.gain));
   }
   CHECK(choice.value == worst);
   CHECK(limpid::verify_theorem3<double>(design_at(0.016), both, choice.gain).verdict == Verdict::feasible);

@@ -8,6 +8,7 @@
 #include <limpid/design/lyapunov.hpp>
 #include <limpid/design/state_space.hpp>
 #include <limpid/design/transfer_function.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -23,6 +24,7 @@ namespace {
 
 using Complex = std::complex<double>;
 using System = StateSpace<double>;
+using limpid::test::maximum;
 
 Eigen::VectorXd list(std::initializer_list<double> values) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(values.size()));
@@ -132,7 +134,7 @@ TEST_CASE("of two peaks, however narrow, the higher is the norm, not the value a
     const double norm = hinf_norm(G).norm;
     double swept = 0;
     for (const auto& [w, z] : {std::pair{w1, z1}, std::pair{w2, z2}}) {
-      for (int k = -400; k <= 400; ++k) swept = std::max(swept, std::abs(response(G, w * (1 + 0.01 * k * z))));
+      for (int k = -400; k <= 400; ++k) swept = maximum(swept, std::abs(response(G, w * (1 + 0.01 * k * z))));
     }
     CHECK(norm >= swept * (1 - 1e-12));
     CHECK(norm <= swept * (1 + 1e-3));  // the sweep is a hundredth of the width apart

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/design/passivity_limits.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 
 using namespace limpid;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -83,7 +85,7 @@ TEST_CASE("a filter's peak inside the sweep is refined to more than its steps") 
   for (int i = 1; i <= 1'000'000; ++i) {
     const double t = std::numbers::pi * i / 1e6;
     const Complex z(std::cos(t), std::sin(t));
-    reference = std::max(reference, T / 2 / (1 - std::cos(t)) * ((1.0 - 1.0 / z) * H(z)).real());
+    reference = maximum(reference, T / 2 / (1 - std::cos(t)) * ((1.0 - 1.0 / z) * H(z)).real());
   }
   // sought to sqrt(epsilon) in omega, so to epsilon in the value; the reference's 1 - cos cancels to 1e-16/5e-12 at
   // its first points, which are not its highest

@@ -4,6 +4,7 @@
 
 #include <limpid/design/adaptation_rate.hpp>
 #include <limpid/design/predictor_bounds.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -16,6 +17,7 @@ using limpid::Gain;
 using limpid::PredictorDesign;
 using limpid::Tissue;
 using limpid::Verdict;
+using limpid::test::maximum;
 
 namespace {
 
@@ -51,7 +53,7 @@ TEST_CASE("without feedback the bound covers the known gain of the tool in the t
   double largest = 0;
   for (double w = 0; w < 200; w += 0.01) {
     const double real = 201 - 0.1 * w * w, imaginary = 20.1 * w;
-    largest = std::max(largest, std::sqrt((1 + w * w) / (real * real + imaginary * imaginary)));
+    largest = maximum(largest, std::sqrt((1 + w * w) / (real * real + imaginary * imaginary)));
   }
   const auto bound = limpid::theorem3_error_bound(case2, tissue, Gain<>(0, 0));
   REQUIRE(bound.verdict == Verdict::feasible);

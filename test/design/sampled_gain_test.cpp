@@ -4,6 +4,7 @@
 
 #include <limpid/design/sampled_gain.hpp>
 #include <limpid/design/sampled_stability.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -19,6 +20,7 @@ using limpid::SampledSystem;
 using limpid::smallest_sampled_radius;
 using limpid::Tissue;
 using limpid::TissueBox;
+using limpid::test::maximum;
 using limpid::test::tool;
 
 namespace {
@@ -88,7 +90,7 @@ TEST_CASE("no gain near the robust one, nor any of 2000 others, has a smaller wo
                          robust.gain[1] + 3 * away * normal(generator));
     double worst = 0;
     for (const double k_e : {200.0, 300.0, 500.0, 1000.0, 2000.0}) {
-      for (const double b_e : {20.0, 30.0, 40.0}) worst = std::max(worst, stability.radius({k_e, b_e}, L));
+      for (const double b_e : {20.0, 30.0, 40.0}) worst = maximum(worst, stability.radius({k_e, b_e}, L));
     }
     if (worst < robust.worst.found) worst = limpid::worst_sampled_radius(system, box, L).found;
     CHECK(worst >= robust.worst.found * (1 - 1e-6));

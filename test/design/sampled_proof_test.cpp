@@ -4,6 +4,7 @@
 #include <limpid/design/sampled_proof.hpp>
 #include <limpid/design/sampled_stability.hpp>
 #include <limpid/design/sampled_worst.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -20,6 +21,7 @@ using limpid::Tissue;
 using limpid::TissueBox;
 using limpid::Verdict;
 using limpid::worst_sampled_radius;
+using limpid::test::maximum;
 using limpid::test::tool;
 
 namespace {
@@ -95,7 +97,7 @@ TEST_CASE("no tissue of a proved box has a larger radius") {
     const SampledStability<double> stability(system);
     CHECK(stability.radius(worst.tissue, L) == doctest::Approx(worst.found).epsilon(1e-12));
     double most = 0;
-    for (int j = 0; j < 2'000; ++j) most = std::max(most, stability.radius({uniform(200, 2000), uniform(20, 40)}, L));
+    for (int j = 0; j < 2'000; ++j) most = maximum(most, stability.radius({uniform(200, 2000), uniform(20, 40)}, L));
     CHECK(most <= worst.proved);
   }
 }

@@ -3,6 +3,7 @@
 #include <limpid/design/mean_value_form.hpp>
 #include <limpid/design/second_order_enclosure.hpp>
 #include <limpid/design/second_order_flow.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -14,6 +15,7 @@
 using limpid::Ball;
 using limpid::MeanValueForm;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -39,7 +41,7 @@ TEST_CASE_TEMPLATE("a mean value form holds the function over its cell, with an 
         const Fifty value = f(Fifty(Scalar(0.7)) + Fifty(width) * i / 8, Fifty(Scalar(1.2)) + Fifty(width) * j / 8);
         REQUIRE(holds(range, value));
         least = std::min(least, value);
-        most = std::max(most, value);
+        most = maximum(most, value);
       }
     }
     return static_cast<double>(Fifty(range.upper()) - most + least - Fifty(range.lower()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/design/virtual_coupling_design.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 
 using namespace limpid;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -29,7 +31,7 @@ double printed_damping_at(const CouplingGains<>& gains, double T, double omega) 
 double swept_damping(const CouplingGains<>& gains, double T, int count) {
   double worst = 0;
   for (int i = 1; i < count; ++i) {
-    worst = std::max(worst, printed_damping_at(gains, T, std::numbers::pi / T * i / count));
+    worst = maximum(worst, printed_damping_at(gains, T, std::numbers::pi / T * i / count));
   }
   return worst;
 }

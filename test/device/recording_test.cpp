@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/device/recording.hpp>
 
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 
 #include <doctest/doctest.h>
@@ -18,6 +19,7 @@
 using limpid::from_seconds;
 using limpid::Recording;
 using limpid::Time;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -120,7 +122,7 @@ TEST_CASE("a smooth press is met to the second order of its spacing, or better")
     const Recording recording = read(text.str());
     double error = 0;
     for (int i = 0; i <= 2000; ++i) {
-      error = std::max(error, std::abs(recording.at(i * 1ms) - 1.5 * (1 - std::cos(0.003 * i))));
+      error = maximum(error, std::abs(recording.at(i * 1ms) - 1.5 * (1 - std::cos(0.003 * i))));
     }
     return error;
   };

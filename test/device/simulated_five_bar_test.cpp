@@ -2,6 +2,7 @@
 #include <limpid/device/simulated_five_bar.hpp>
 
 #include <conformance/haptic_device_suite.hpp>
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 #include <support/permit.hpp>
 
@@ -18,6 +19,7 @@ using limpid::Realism;
 using limpid::SimulatedFiveBar;
 using limpid::Status;
 using limpid::Time;
+using limpid::test::maximum;
 using limpid::test::permit;
 using namespace std::chrono_literals;
 
@@ -196,7 +198,7 @@ TEST_CASE("a realistic device loses energy as it coasts until it stands, and the
   for (int k = 31; k <= 1000; ++k) {
     REQUIRE(device.advance(k * 1ms, none) == Status::ok);
     const double energy = kinetic_energy(device, theta);
-    worst = std::max(worst, energy - least);
+    worst = maximum(worst, energy - least);
     least = std::min(least, energy);
   }
   CHECK(worst <= 2e-3 * 2e-4);

@@ -4,6 +4,7 @@
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/unilateral.hpp>
 #include <limpid/environment/virtual_tool.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -19,6 +20,7 @@ using limpid::SmoothBilinear;
 using limpid::Status;
 using limpid::Unilateral;
 using limpid::VirtualTool;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -49,8 +51,8 @@ TEST_CASE("the integrated trajectory of a linear environment is the exact one") 
   for (int tick = 0; tick <= 2000; ++tick) {
     const One F(3 * std::sin(1e-3 * std::numbers::pi * tick));
     const auto a = exact.advance(tick * 1ms, F).value, b = integrated.advance(tick * 1ms, F).value;
-    worst_x = std::max(worst_x, std::abs(a.x[0] - b.x[0]));
-    worst_v = std::max(worst_v, std::abs(a.v[0] - b.v[0]));
+    worst_x = maximum(worst_x, std::abs(a.x[0] - b.x[0]));
+    worst_v = maximum(worst_v, std::abs(a.v[0] - b.v[0]));
   }
   // 1e-15 in m and m/s or 1e-12 of x = 1.5 mm and v = 5 mm/s in each step, remembered for 1/(b/2m) = 8 ticks
   CHECK(worst_x < 8 * 1e-14);
@@ -72,8 +74,8 @@ TEST_CASE("in the smooth bilinear tissue it agrees with a thousand classical Run
       });
     }
     const auto state = tool.advance(tick * 1ms, One(F1)).value;
-    worst_x = std::max(worst_x, std::abs(state.x[0] - x));
-    worst_v = std::max(worst_v, std::abs(state.v[0] - v));
+    worst_x = maximum(worst_x, std::abs(state.x[0] - x));
+    worst_v = maximum(worst_v, std::abs(state.v[0] - v));
   }
   // Local errors of 1e-12 of x = 4 mm, remembered for b/k1 = 150 ticks, and of v = 60 mm/s, for m/b = 3 ticks, beside
   // what x pulls along. The reference's own truncation is (300/s 1 us)^4 = 1e-14 of them.
@@ -90,8 +92,8 @@ TEST_CASE("without damping a tool in a Hunt-Crossley contact keeps its energy") 
   for (int tick = 1; tick <= 1000; ++tick) {
     const auto state = tool.advance(tick * 1ms, One(F)).value;
     const double x = state.x[0], v = state.v[0];
-    worst = std::max(worst, std::abs(m / 2 * v * v + k / (N + 1) * std::pow(std::abs(x), N + 1) - F * x));
-    deepest = std::max(deepest, x);
+    worst = maximum(worst, std::abs(m / 2 * v * v + k / (N + 1) * std::pow(std::abs(x), N + 1) - F * x));
+    deepest = maximum(deepest, x);
   }
   // it swings between 0 and (F (N + 1)/k)^(1/N) = 24.6 mm, seen at ticks of 1 ms; F x at the deepest is 0.12 J
   CHECK(deepest == doctest::Approx(std::pow(F * (N + 1) / k, 1 / N)).epsilon(1e-3));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/environment/operator_hand.hpp>
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 #include <support/precision.hpp>
 
@@ -14,6 +15,7 @@
 using namespace limpid;
 using namespace std::chrono_literals;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -191,7 +193,7 @@ TEST_CASE("rounding in double stays far below a micronewton: the same ticks in 5
       if (++count > 200) return;
       now += from_seconds(t.h);
       const auto exact = fifty.advance(now, One<Fifty>(Fifty(t.F1)), One<Fifty>(Fifty(t.x1)), One<Fifty>(Fifty(t.v1)));
-      worst = std::max(worst, std::abs(force - static_cast<double>(exact.force[0])));
+      worst = maximum(worst, std::abs(force - static_cast<double>(exact.force[0])));
     });
     // a_t from positions: 6 1e-17/h^2 = 6e-9 m/s^2 at 0.1 ms, on at most 1 kg, over 200 ticks that mostly cancel
     CHECK(worst < 1e-7);

@@ -3,6 +3,7 @@
 #include <limpid/environment/kelvin_voigt.hpp>
 #include <limpid/environment/tangent_model.hpp>
 #include <limpid/environment/virtual_tool.hpp>
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 
 #include <doctest/doctest.h>
@@ -19,6 +20,7 @@ using limpid::Tangent;
 using limpid::Time;
 using limpid::Tool;
 using limpid::VirtualTool;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -127,7 +129,7 @@ TEST_CASE("two coupled axes move as their sum and their difference do alone") {
     const Eigen::Array2d F{3 * std::sin(0.02 * tick), 0.005 * tick};
     const auto x = both.advance(tick * 1ms, F).value.x;
     const auto mode = modes.advance(tick * 1ms, {F[0] + F[1], F[0] - F[1]}).value.x;
-    worst = std::max({worst, std::abs(x[0] + x[1] - mode[0]), std::abs(x[0] - x[1] - mode[1])});
+    worst = maximum(worst, std::abs(x[0] + x[1] - mode[0]), std::abs(x[0] - x[1] - mode[1]));
   }
   // integrated to 1e-15 m or 1e-12 of 10 mm in each of 400 ticks or more
   CHECK(worst < 400 * 1e-14);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/estimation/exponential_mean.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 TEST_CASE_TEMPLATE("the mean of exp is right to three roundings on both sides of its change of method", Scalar, float,
                    double, long double) {
@@ -21,7 +22,7 @@ TEST_CASE_TEMPLATE("the mean of exp is right to three roundings on both sides of
                      Scalar(sign(random) < 0 ? -1 : 1);
     const Fifty exact = Fifty(expm1(Fifty(x))) / Fifty(x);
     const Fifty error = abs(Fifty(limpid::exponential_mean(Lane(x))[0]) - exact) / exact;
-    worst = std::max(worst, error);
+    worst = maximum(worst, error);
   }
   CHECK(worst < 3 * Fifty(std::numeric_limits<Scalar>::epsilon()));
   CHECK(limpid::exponential_mean(Lane(Scalar{0}))[0] == Scalar{1});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/estimation/least_squares_flow.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 
 using limpid::InformationSeries;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -40,7 +42,7 @@ TEST_CASE_TEMPLATE("the series solves the equation of the information to a few r
     }
     const Array E = series(z, q);
     for (int lane = 0; lane < 4; ++lane) {
-      if (z[lane] > Scalar{0}) worst = std::max(worst, std::abs(miss(E[lane], z[lane], q[lane], p)) / double(rounding));
+      if (z[lane] > Scalar{0}) worst = maximum(worst, std::abs(miss(E[lane], z[lane], q[lane], p)) / double(rounding));
     }
   }
   MESSAGE("worst in roundings: " << worst);

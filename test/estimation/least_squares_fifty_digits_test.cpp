@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/estimation/projection_rls.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 using limpid::ProjectionRLS;
 using limpid::Status;
 using limpid::test::Fifty;
+using limpid::test::maximum;
 
 namespace {
 
@@ -189,8 +191,8 @@ Errors worst_of(int steps) {
   Errors worst;
   for (int i = 0; i < steps; ++i) {
     const auto error = errors_of_one_step<N, Scalar>(random);
-    worst.theta = std::max(worst.theta, error.theta);
-    worst.Gamma = std::max(worst.Gamma, error.Gamma);
+    worst.theta = maximum(worst.theta, error.theta);
+    worst.Gamma = maximum(worst.Gamma, error.Gamma);
   }
   return worst;
 }

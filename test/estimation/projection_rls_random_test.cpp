@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/estimation/projection_rls.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -9,6 +10,7 @@
 #include <limits>
 
 using limpid::ProjectionRLS;
+using limpid::test::maximum;
 
 namespace {
 
@@ -58,7 +60,7 @@ void ramble() {
     const auto [U, D] = rls.factors(0);
     definite = definite && (D.array() > Scalar(0)).all() && limpid::is_finite(U) && limpid::is_finite(D);
     inside = inside && (rls.theta() >= lower).all() && (rls.theta() <= upper).all();
-    if (tick % 256 == 0) largest = std::max(largest, limpid::symmetric_eigenvalues<N, Scalar>(rls.gain(0)).maxCoeff());
+    if (tick % 256 == 0) largest = maximum(largest, limpid::symmetric_eigenvalues<N, Scalar>(rls.gain(0)).maxCoeff());
   }
   CHECK(definite);
   CHECK(inside);

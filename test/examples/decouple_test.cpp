@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "common/decouple.hpp"
+#include <support/maximum.hpp>
 #include "common/decouple_device.hpp"
 
 #include <doctest/doctest.h>
@@ -18,6 +19,7 @@
 using namespace limpid::examples;
 using limpid::Realism;
 using limpid::Status;
+using limpid::test::maximum;
 
 namespace {
 
@@ -108,7 +110,7 @@ TEST_CASE("with the hand fed to the observers the ideal device moves along x as 
   double least = 0, greatest = 0;
   for (std::size_t i = 2500; i < observed.x.size(); ++i) {
     least = i == 2500 ? observed.x[i] : std::min(least, observed.x[i]);
-    greatest = i == 2500 ? observed.x[i] : std::max(greatest, observed.x[i]);
+    greatest = i == 2500 ? observed.x[i] : maximum(greatest, observed.x[i]);
   }
   const double omega = 2 * std::acos(-1.0) * 5;
   const double nominal = 1e-3 / (omega * std::hypot(omega * nominal_mass, nominal_damping));

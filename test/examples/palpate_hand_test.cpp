@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <support/maximum.hpp>
 #include "common/scene.hpp"
 
 #include <doctest/doctest.h>
@@ -9,6 +10,7 @@
 
 using namespace limpid;
 using namespace limpid::examples;
+using limpid::test::maximum;
 
 namespace {
 
@@ -28,7 +30,7 @@ Scene short_press(const HandModel& hand) {
 
 double peak_force(const PalpationResult& result) {
   double peak = 0;
-  for (const TracePoint& point : result.trace) peak = std::max(peak, std::abs(point.force));
+  for (const TracePoint& point : result.trace) peak = maximum(peak, std::abs(point.force));
   return peak;
 }
 

@@ -3,6 +3,7 @@
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/virtual_tool.hpp>
 #include <limpid/prediction/model_predictor.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -13,6 +14,8 @@ using limpid::Known;
 using limpid::ModelPredictor;
 using limpid::Time;
 using limpid::Tool;
+using limpid::test::largest_entry;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -33,7 +36,7 @@ double worst_over_press(const Env& environment, const limpid::EnvironmentTheta<E
     const auto press = [](double s) { return 3 * (1 - std::cos(2 * M_PI * s)); };
     const Vector F = Vector::Constant(press(from) + (press(from + 0.02) - press(from)) * part);
     const auto truth = ideal.advance(now, F).value;
-    worst = std::max(worst, (predictor.advance(now, F).motion.x - truth.x).abs().maxCoeff());
+    worst = maximum(worst, largest_entry(predictor.advance(now, F).motion.x - truth.x));
   }
   return worst;
 }

@@ -6,6 +6,7 @@
 #include <limpid/prediction/hold_predictor.hpp>
 #include <limpid/prediction/model_predictor.hpp>
 #include <limpid/signal/delayed_sampled.hpp>
+#include <support/maximum.hpp>
 
 #include <doctest/doctest.h>
 
@@ -18,6 +19,7 @@ using limpid::ModelPredictor;
 using limpid::Time;
 using limpid::Tool;
 using limpid::ToolState;
+using limpid::test::maximum;
 
 namespace {
 
@@ -81,8 +83,8 @@ Adaptation case_3(const Env::Theta& truth, const Env::Theta& start) {
       (void)predictor.observe(arrived(held));
       (void)hold.observe(arrived(held));
     }
-    error = std::max(error, distance(predictor.advance(now, press(now)).motion, ideal));
-    hold_error = std::max(hold_error, distance(hold.advance(now, press(now)).motion, ideal));
+    error = maximum(error, distance(predictor.advance(now, press(now)).motion, ideal));
+    hold_error = maximum(hold_error, distance(hold.advance(now, press(now)).motion, ideal));
     const Env::Theta miss = (estimator.estimate().theta_hat / truth - 1).abs();
     if (miss(0) > 0.05) result.stiffness_settled = limpid::in_seconds(now);
     if (miss(1) > 0.05) result.damping_settled = limpid::in_seconds(now);
@@ -119,8 +121,8 @@ TEST_CASE("case 2: the prediction error vanishes, hold's settles at 4.9e-4") {
     }
     const auto mine = predictor.advance(now, press(now)).motion, other = hold.advance(now, press(now)).motion;
     if (now < std::chrono::seconds(2)) continue;
-    error = std::max(error, distance(mine, ideal));
-    hold_error = std::max(hold_error, distance(other, ideal));
+    error = maximum(error, distance(mine, ideal));
+    hold_error = maximum(hold_error, distance(other, ideal));
   }
   CHECK(hold_error == doctest::Approx(4.9e-4).epsilon(0.01));  // two digits in the notes
   CHECK(error < 1e-11 * hold_error);                           // exact prediction: roundings remain

@@ -4,12 +4,12 @@
 #include <limpid/robot/cartesian_dynamics.hpp>
 #include <limpid/robot/five_bar.hpp>
 #include <limpid/robot/omni.hpp>
+#include <support/maximum.hpp>
 
 #include <Eigen/Core>
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -58,12 +58,12 @@ Inconsistency inconsistency(const R& robot, const RobotParameters<R>& theta,
     const Eigen::Matrix<Scalar, Axes, 1> F = tip.force(J * qdot, J * qddot + Jdot * qdot);
     Scalar error;
     if constexpr (Axes == RobotTraits<R>::joints) {
-      error = (J.transpose() * F - tau).cwiseAbs().maxCoeff();
+      error = largest_entry(J.transpose() * F - tau);
     } else {
-      error = (F - tip.J_inverse.transpose() * tau).cwiseAbs().maxCoeff();
+      error = largest_entry(F - tip.J_inverse.transpose() * tau);
     }
-    found.worst = std::max(found.worst, static_cast<double>(error));
-    found.largest = std::max(found.largest, static_cast<double>(tau.cwiseAbs().maxCoeff()));
+    found.worst = maximum(found.worst, static_cast<double>(error));
+    found.largest = maximum(found.largest, static_cast<double>(largest_entry(tau)));
     status |= tip.status;
   }
   CHECK(status == Status::ok);

@@ -51,10 +51,10 @@ TEST_CASE("joints inside the limits come back from their tip, the tip from its j
       const Vector3d x = pose.position(), v = pose.jacobian() * qdot;
       const Vector3d a = pose.jacobian_dot(qdot) * qdot + pose.jacobian() * qddot;  // (3.10)
       const auto motion = kinematics.inverse(x, v, a);
-      joints.see((motion.q - q).lpNorm<Eigen::Infinity>(), i);
-      tip.see((robot.at(motion.q).position() - x).lpNorm<Eigen::Infinity>(), i);
-      rates.see((motion.qdot - qdot).lpNorm<Eigen::Infinity>(), i);
-      accelerations.see((motion.qddot - qddot).lpNorm<Eigen::Infinity>(), i);
+      joints.see(motion.q - q, i);
+      tip.see(robot.at(motion.q).position() - x, i);
+      rates.see(motion.qdot - qdot, i);
+      accelerations.see(motion.qddot - qddot, i);
       status |= motion.status;
     }
     CAPTURE(joints);

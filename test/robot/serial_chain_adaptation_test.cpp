@@ -2,6 +2,7 @@
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/core/dormand_prince.hpp>
 #include <limpid/robot/serial_chain.hpp>
+#include <support/maximum.hpp>
 
 #include "chains.hpp"
 
@@ -10,12 +11,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 using limpid::DesiredJoints, limpid::DormandPrince, limpid::JointState, limpid::SerialChain, limpid::SlotineLiAdaptive,
     limpid::Status, limpid::Time;
+using limpid::test::maximum;
 using limpid::test::puma_560, limpid::test::puma_560_theta;
 using namespace std::chrono_literals;
 
@@ -75,8 +76,8 @@ Tracked track(double adaptation, int seconds) {
     const auto output = controller.update(Time(1ms * tick), is, wanted(t), Eigen::Vector3d::Zero());
     REQUIRE(output.status == Status::ok);
     const double error = (is.q - wanted(t).q).lpNorm<Eigen::Infinity>();
-    if (tick < 1000) tracked.early = std::max(tracked.early, error);
-    if (tick >= 1000 * (seconds - 1)) tracked.late = std::max(tracked.late, error);
+    if (tick < 1000) tracked.early = maximum(tracked.early, error);
+    if (tick >= 1000 * (seconds - 1)) tracked.late = maximum(tracked.late, error);
     const auto motion = [&](double, const State& state) {
       const auto pose = chain.at(state.head<6>());
       const Six qdot = state.tail<6>();

@@ -49,7 +49,7 @@ Worst torque_errors() {
           .torque(theta.cast<T>(), qdot.template cast<T>(), qdot_r.template cast<T>(), qddot_r.template cast<T>());
     };
     const Eigen::Matrix<Fifty, 6, 1> error = torque(Scalar(0)).template cast<Fifty>() - torque(Fifty(0));
-    worst.see(static_cast<double>(error.cwiseAbs().maxCoeff()) / 60, i);
+    worst.see(error / Fifty(60), i);
   }
   return worst;
 }

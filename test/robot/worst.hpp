@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <support/maximum.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
 #include <ostream>
 
 namespace limpid::test {
@@ -9,9 +14,14 @@ namespace limpid::test {
 class Worst {
  public:
   void see(double error, int trial) {
-    if (error <= error_) return;
+    if (error <= error_ || std::isnan(error_)) return;
     error_ = error;
     trial_ = trial;
+  }
+  /// By its largest entry.
+  template <typename Derived>
+  void see(const Eigen::DenseBase<Derived>& error, int trial) {
+    see(static_cast<double>(largest_entry(error)), trial);
   }
   [[nodiscard]] double error() const { return error_; }
   friend std::ostream& operator<<(std::ostream& out, const Worst& worst) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/signal/filtered_derivative.hpp>
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 using limpid::FilteredDerivative;
 using limpid::Status;
 using limpid::Time;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -55,7 +57,7 @@ TEST_CASE("a sine of 4 Hz comes out with the gain and the lag of (5.3)") {
     const double value = derivative.update(tick * 1ms, One<double>(std::sin(omega * t))).value[0];
     const double gain = omega / std::hypot(1, omega * tau), lag = std::atan(omega * tau);
     // the transient is below exp(-2/tau) after two seconds
-    if (tick > 2000) worst = std::max(worst, std::abs(value - gain * std::cos(omega * t - lag)) / gain);
+    if (tick > 2000) worst = maximum(worst, std::abs(value - gain * std::cos(omega * t - lag)) / gain);
   }
   // linear interpolation lowers a sine by (omega h)^2/12 = 5.3e-5 on average
   CHECK(worst < 6e-5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/signal/low_pass.hpp>
+#include <support/maximum.hpp>
 #include <support/no_allocation.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 using limpid::LowPass;
 using limpid::Status;
 using limpid::Time;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -53,7 +55,7 @@ TEST_CASE("at the cutoff the gain is 1/sqrt(2) and the lag an eighth of a turn")
     const double value = filter.update(tick * 1ms, One<double>(std::sin(angle))).value[0];
     // the transient is below exp(-2 pi 10) after a second
     if (tick > 1000) {
-      worst = std::max(worst, std::abs(value * std::numbers::sqrt2 - std::sin(angle - std::numbers::pi / 4)));
+      worst = maximum(worst, std::abs(value * std::numbers::sqrt2 - std::sin(angle - std::numbers::pi / 4)));
     }
   }
   // linear interpolation lowers a sine by (omega h)^2/12 = 3.3e-4 on average

@@ -4,6 +4,7 @@
 #include <limpid/signal/history.hpp>
 #include <limpid/signal/low_pass.hpp>
 #include <limpid/signal/quantiser.hpp>
+#include <support/maximum.hpp>
 #include <support/precision.hpp>
 
 #include <doctest/doctest.h>
@@ -12,6 +13,7 @@
 #include <random>
 
 using limpid::test::Fifty;
+using limpid::test::maximum;
 using namespace std::chrono_literals;
 
 namespace {
@@ -32,7 +34,7 @@ double rounding(Rounded rounded, Exact exact) {
     u += change(random);
     const double value = rounded.update(now, One(u)).value[0];
     const Fifty true_value = exact.update(now, OneFifty(Fifty(u))).value[0];
-    worst = std::max(worst, Fifty(abs(value - true_value)).template convert_to<double>());
+    worst = maximum(worst, Fifty(abs(value - true_value)).template convert_to<double>());
   }
   return worst;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <support/maximum.hpp>
 
 namespace limpid::stress {
 
@@ -34,7 +34,7 @@ struct Outcome {
     while (i < figure_count && figures[i].name != name) ++i;
     if (i == most_figures) return;
     if (i == figure_count) figures[figure_count++] = {name, number};
-    figures[i].worst = std::max(figures[i].worst, number);
+    figures[i].worst = test::maximum(figures[i].worst, number);
   }
 };
 
