@@ -125,7 +125,6 @@ std::vector<Method> methods(bool varying) {
   add(methods, "exact, series", true, exact, [=]<typename Scalar>(std::type_identity<Scalar>) {
     return Runner<SecondOrderStep<Axes, Scalar>, Axes, Scalar>(varying);
   });
-  add_law.template operator()<BackwardSeries>("exact, backward series");
   add_law.template operator()<ClosedForm>("exact, closed form");
   if constexpr (Axes == 1) add_law.template operator()<MatrixExponential>("exact, matrix exponential");
   return methods;

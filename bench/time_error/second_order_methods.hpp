@@ -2,12 +2,9 @@
 #pragma once
 
 #include <limpid/core/held_step.hpp>
-#include <limpid/core/inverse_factorial.hpp>
 #include <limpid/core/lanes.hpp>
 
 #include <Eigen/Core>
-
-#include <limits>
 
 namespace limpid::bench {
 
@@ -120,42 +117,6 @@ struct FromResponses {
     const Array x0 = x, v0 = v, slope = (f1 - f0) * rate;
     x = r * slope + s * f0 + x_from_x * x0 + g * v0;  // f first: the chain from step to step is two products long
     v = s * slope + g * f0 + v_from_x * x0 + v_from_v * v0;
-  }
-};
-
-/// r/h^3 = sum u_n/(n + 3)! with u_(n+1) = -B u_n - K u_(n-1), u_0 = 1, B = beta h, K = kappa h^2, summed backwards
-/// (Clenshaw): b_n = 1/(n + 3)! - B b_(n+1) - K b_(n+2) ends in r/h^3 at n = 0, s/h^2 at -1 and g/h at -2. For
-/// B and sqrt(K) up to 1/2.
-template <typename Array>
-struct BackwardSeries : FromResponses<Array> {
-  using typename FromResponses<Array>::Scalar;
-
-  void set(const Array& kappa, const Array& beta, const Scalar& h) noexcept {
-    const Array B = beta * h, K = kappa * (h * h);
-    Array before = Array::Zero(), sum = Array::Constant(detail::inverse_factorial<Scalar, terms() + 2>());
-    add_terms<terms() - 2>(B, K, before, sum);
-    this->g = (Scalar{1} - K * before - B * sum) * h;
-    this->s = sum * (h * h);
-    this->r = before * (h * h * h);
-    this->use(kappa, beta, h);
-  }
-
- private:
-  // Up to where (golden ratio/2)^n/(n + 3)!, which bounds a term, is below a rounding.
-  static constexpr int terms() {
-    double bound = 1, precision = 1;
-    for (int bit = 0; bit < std::numeric_limits<Scalar>::digits + 2; ++bit) precision /= 2;
-    int n = 0;
-    for (; (n + 3) * bound > precision; ++n) bound *= 0.80905 / (n + 4);
-    return n;
-  }
-
-  template <int n>
-  EIGEN_ALWAYS_INLINE static void add_terms(const Array& B, const Array& K, Array& before, Array& sum) noexcept {
-    const Array next = (detail::inverse_factorial<Scalar, n + 3>() - K * before) - B * sum;
-    before = sum;
-    sum = next;
-    if constexpr (n > -1) add_terms<n - 1>(B, K, before, sum);
   }
 };
 
