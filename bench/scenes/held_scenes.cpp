@@ -10,7 +10,10 @@ template <int Axes>
 Scene held(std::string name) {
   using namespace std::chrono_literals;
   using Block = palpation::PredictionBlock<HoldPredictor<Axes>, Axes>;
-  return Scene::of<Axes>(std::move(name), scene_loop<Axes>(16ms, Block{HoldPredictor<Axes>{}}), true);
+  const auto inputs =
+      inputs_along(press, KelvinVoigt<Axes>{}, EnvironmentTheta<KelvinVoigt<Axes>>(tick_tissue().topRows<Axes>()),
+                   {.mass = 0.1, .damping = 0.1});
+  return Scene::of<Block>(std::move(name), {}, scene_loop<Axes>(16ms, Block{HoldPredictor<Axes>{}}), inputs);
 }
 
 }  // namespace

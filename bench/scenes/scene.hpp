@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scenes/premise.hpp"
 #include "tick/library_tick.hpp"
 
 #include <limpid/evaluation/latency_histogram.hpp>
@@ -19,15 +20,15 @@ namespace limpid::bench {
 /// A scene's whole tick, from the sampled tool to the torque that the device may have, with its own clock.
 class Scene {
  public:
-  template <int Axes, typename Loop>
-  static Scene of(std::string name, Loop loop, bool touching) {
+  /// @tparam Predicting  the loop's block that predicts
+  template <typename Predicting, int Axes, typename Loop>
+  static Scene of(std::string name, const Premise& premise, Loop loop, std::vector<TickInput<Axes>> inputs) {
     Scene scene;
     scene.name_ = std::move(name);
     scene.bytes_ = sizeof(Loop);
-    scene.run_ = [loop = std::move(loop), inputs = inputs_of<Axes>(touching), now = Time{0}, next = std::size_t{0}](
-                     long ticks, LatencyHistogram* histogram) mutable {
+    scene.run_ = [loop, inputs, now = Time{0}, next = std::size_t{0}](long ticks, LatencyHistogram* histogram) mutable {
       for (long i = 0; i < ticks; ++i, now += std::chrono::milliseconds{1}, next = (next + 1) % inputs.size()) {
-        const Input<Axes>& in = inputs[next];
+        const TickInput<Axes>& in = inputs[next];
         if (histogram == nullptr) {
           benchmark::DoNotOptimize(loop.step(now, in.F_h, in.F_h, in.tool, in.device));
           continue;
@@ -37,6 +38,21 @@ class Scene {
         histogram->add(std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now() - start));
       }
     };
+    scene.broken_premise_ = [premise, loop, inputs]() mutable {
+      constexpr int settling = 2048, ticks = 4096;
+      Survey survey(premise);
+      for (int i = 0; i < settling + ticks; ++i) {
+        const TickInput<Axes>& in = inputs[static_cast<std::size_t>(i) % inputs.size()];
+        const Time now = i * Time{std::chrono::milliseconds{1}};
+        const Status status = loop.step(now, in.F_h, in.F_h, in.tool, in.device).status;
+        if (i < settling) continue;
+        // A second call at the same time changes nothing, and says where the tool was predicted.
+        const auto again =
+            loop.template block<Predicting>().component.advance(now, in.F_h.template head<Axes>().array());
+        survey.see(again.motion.x[0], in.tool.x[0], status);
+      }
+      return survey.broken();
+    };
     return scene;
   }
 
@@ -44,36 +60,14 @@ class Scene {
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
   void run(long ticks, LatencyHistogram* histogram = nullptr) { run_(ticks, histogram); }
 
+  /// What of the scene's premise does not hold, in a run of its own; empty where all does.
+  [[nodiscard]] std::string broken_premise() { return broken_premise_(); }
+
  private:
-  template <int Axes>
-  struct Input {
-    Eigen::Vector3d F_h;
-    ToolState<Axes> tool;
-    DeviceState<3> device;
-  };
-
-  // The press of `tick_inputs`; without contact the tool moves a centimetre before the wall.
-  template <int Axes>
-  static std::vector<Input<Axes>> inputs_of(bool touching) {
-    std::vector<Input<Axes>> inputs;
-    for (const TickInput<double>& of : tick_inputs<double>()) {
-      Input<Axes> in{
-          of.F_h,
-          {of.tool.x.head<Axes>(), of.tool.v.head<Axes>(), of.tool.a.head<Axes>(), of.tool.force.head<Axes>()},
-          of.device};
-      if (!touching) {
-        in.F_h -= of.tool.force.matrix();
-        in.tool.x -= 0.01;
-        in.tool.force.setZero();
-      }
-      inputs.push_back(in);
-    }
-    return inputs;
-  }
-
   std::string name_;
   std::size_t bytes_ = 0;
   std::function<void(long, LatencyHistogram*)> run_;
+  std::function<std::string()> broken_premise_;
 };
 
 /// The loop of a scene: these blocks, which predict, with a sample every `period`, as much late.
@@ -103,5 +97,8 @@ void add_estimated_scenes(std::vector<Scene>& scenes);
   add_estimated_scenes(scenes);
   return scenes;
 }
+
+/// Whether the premises of all hold; says which do not.
+[[nodiscard]] bool premises_hold(std::vector<Scene>& scenes);
 
 }  // namespace limpid::bench

@@ -10,6 +10,7 @@
 #include <limpid/robot/omni_kinematics.hpp>
 #include <limpid/scene/palpation_blocks.hpp>
 
+#include "tick/inputs.hpp"
 #include "tick/straightforward_tick.hpp"
 
 #include <utility>
@@ -17,30 +18,20 @@
 
 namespace limpid::bench {
 
-/// What a tick is given; a loop of inputs that excites all three axes.
-template <typename Scalar>
-struct TickInput {
-  Eigen::Matrix<Scalar, 3, 1> F_h;
-  ToolState<3, Scalar> tool;
-  DeviceState<3, Scalar> device;
-};
+/// A tissue of each axis's own, N/m and N s/m.
+[[nodiscard]] inline EnvironmentTheta<KelvinVoigt<3>> tick_tissue() {
+  EnvironmentTheta<KelvinVoigt<3>> theta;
+  theta << 900, 25, 600, 33, 1300, 29;
+  return theta;
+}
 
 /// 1024 ticks of a press along three axes, periodic.
 template <typename Scalar>
-[[nodiscard]] std::vector<TickInput<Scalar>> tick_inputs() {
-  std::vector<TickInput<Scalar>> inputs;
-  const Eigen::Array3d k{900, 600, 1300}, b{25, 33, 29}, phase{0, 1, 2};
-  const double w = 2 * 3.14159265358979 / 1.024;
-  for (int i = 0; i < 1024; ++i) {
-    const Eigen::Array3d angle = 3 * w * 0.001 * i + phase;
-    const Eigen::Array3d x = 0.003 * angle.sin(), v = 0.009 * w * angle.cos(), a = -0.027 * w * w * angle.sin();
-    const Eigen::Array3d force = k * x + b * v;
-    TickInput<Scalar> input;
-    input.tool = {x.cast<Scalar>(), v.cast<Scalar>(), a.cast<Scalar>(), force.cast<Scalar>()};
-    input.F_h = (force + 0.1 * a + 0.1 * v).matrix().cast<Scalar>();
-    input.device.q = (Eigen::Vector3d(0, 0.7853981633974483, -1.25) + 0.05 * angle.sin().matrix()).cast<Scalar>();
-    input.device.qdot = (0.15 * w * angle.cos().matrix()).cast<Scalar>();
-    inputs.push_back(input);
+[[nodiscard]] std::vector<TickInput<3, Scalar>> tick_inputs() {
+  std::vector<TickInput<3, Scalar>> inputs;
+  for (const TickInput<3>& input :
+       inputs_along(press, KelvinVoigt<3>{}, tick_tissue(), {.mass = 0.1, .damping = 0.1})) {
+    inputs.push_back(input.template cast<Scalar>());
   }
   return inputs;
 }

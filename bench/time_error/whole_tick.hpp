@@ -29,18 +29,10 @@ inline StraightforwardTick::Settings settings() {
 }
 
 template <typename Scalar>
-const std::vector<TickInput<Scalar>>& inputs() {
-  static const std::vector<TickInput<Scalar>> all = [] {
-    std::vector<TickInput<Scalar>> made;
-    for (const auto& in : tick_inputs<float>()) {
-      TickInput<Scalar> cast;
-      cast.F_h = in.F_h.template cast<Scalar>();
-      cast.tool = {in.tool.x.template cast<Scalar>(), in.tool.v.template cast<Scalar>(),
-                   in.tool.a.template cast<Scalar>(), in.tool.force.template cast<Scalar>()};
-      cast.device.q = in.device.q.template cast<Scalar>();
-      cast.device.qdot = in.device.qdot.template cast<Scalar>();
-      made.push_back(cast);
-    }
+const std::vector<TickInput<3, Scalar>>& inputs() {
+  static const std::vector<TickInput<3, Scalar>> all = [] {
+    std::vector<TickInput<3, Scalar>> made;
+    for (const auto& in : tick_inputs<float>()) made.push_back(in.template cast<Scalar>());
     return made;
   }();
   return all;
@@ -75,7 +67,7 @@ class Runner {
 template <typename Scalar>
 struct ByHand {
   HandWrittenTick<Scalar> tick{settings()};
-  auto operator()(Time now, const TickInput<Scalar>& in) {
+  auto operator()(Time now, const TickInput<3, Scalar>& in) {
     return tick.step(now, in.F_h, in.F_h, in.tool, in.device).torque;
   }
 };
@@ -84,7 +76,7 @@ template <typename Scalar>
 struct Composed {
   using Loop = decltype(composed_tick<Scalar>());
   Loop tick = composed_tick<Scalar>(settings());
-  auto operator()(Time now, const TickInput<Scalar>& in) {
+  auto operator()(Time now, const TickInput<3, Scalar>& in) {
     const auto [torque, status] = tick.step(now, in.F_h, in.F_h, in.tool, in.device);
     return torque;
   }

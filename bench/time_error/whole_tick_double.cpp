@@ -7,7 +7,7 @@ namespace {
 
 struct Straightforward {
   StraightforwardTick tick{settings()};
-  auto operator()(Time now, const TickInput<double>& in) {
+  auto operator()(Time now, const TickInput<3>& in) {
     return tick.step(now, in.F_h, in.tool, in.device.q, in.device.qdot);
   }
 };
