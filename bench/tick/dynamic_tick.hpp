@@ -68,6 +68,10 @@ class DynamicTick {
     return tau;
   }
 
+  /// Of an axis: (k, b), and Gamma.
+  [[nodiscard]] Eigen::Vector2d theta(int axis) const { return axes_[static_cast<std::size_t>(axis)].theta; }
+  [[nodiscard]] Eigen::Matrix2d Gamma(int axis) const { return axes_[static_cast<std::size_t>(axis)].Gamma; }
+
  private:
   static constexpr std::size_t history = 512;  // the delay is at least a tick
   static constexpr double l2 = 0.135, l3 = 0.130, g = 9.81;

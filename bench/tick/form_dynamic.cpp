@@ -5,8 +5,8 @@
 namespace limpid::bench {
 
 Form dynamic_form() {
-  return Form::of<double>("dynamic",
-                          [tick = DynamicTick(TickParts<double>::settings())](Time now, const auto& in) mutable {
+  return Form::of<double>("dynamic", DynamicTick(TickParts<double>::settings()),
+                          [](auto& tick, Time now, const auto& in) {
                             return tick.step(now, in.F_h, in.tool, in.device.q, in.device.qdot);
                           });
 }

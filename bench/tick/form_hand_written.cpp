@@ -4,8 +4,8 @@
 namespace limpid::bench {
 
 Form hand_written_form() {
-  return Form::of<double>("hand_written", [calls = HandWrittenTick<double>()](Time now, const auto& in) mutable {
-    return calls.step(now, in.F_h, in.F_h, in.tool, in.device);
+  return Form::of<double>("hand_written", HandWrittenTick<double>(), [](auto& tick, Time now, const auto& in) {
+    return tick.step(now, in.F_h, in.F_h, in.tool, in.device);
   });
 }
 

@@ -5,7 +5,7 @@
 namespace limpid::bench {
 
 Form simd_form() {
-  return Form::of<double>("simd", [tick = SimdTick(TickParts<double>::settings())](Time now, const auto& in) mutable {
+  return Form::of<double>("simd", SimdTick(TickParts<double>::settings()), [](auto& tick, Time now, const auto& in) {
     return tick.step(now, in.F_h, in.tool, in.device.q, in.device.qdot);
   });
 }

@@ -51,6 +51,15 @@ class SimdTick {
     return arm_.track(x_, v_, a, q, qdot, F);
   }
 
+  /// Of an axis: (k, b), and Gamma multiplied out.
+  [[nodiscard]] Eigen::Vector2d theta(int axis) const { return {k_[axis], b_[axis]}; }
+  [[nodiscard]] Eigen::Matrix2d Gamma(int axis) const {
+    const double across = U_[axis] * D1_[axis];
+    Eigen::Matrix2d Gamma;
+    Gamma << D0_[axis] + U_[axis] * across, across, across, D1_[axis];
+    return Gamma;
+  }
+
  private:
   static constexpr std::size_t most_on_the_way = 64;
 

@@ -34,8 +34,9 @@ class StraightforwardTick {
     }
   }
 
+  /// @param obeyed  whether the device had the torque that the last step gave
   Eigen::Vector3d step(Time now, const Eigen::Vector3d& F_h, const ToolState<3>& tool, const Eigen::Vector3d& q,
-                       const Eigen::Vector3d& qdot) {
+                       const Eigen::Vector3d& qdot, bool obeyed = true) {
     const double h = started_ ? in_seconds(now - now_) : 0;
     const bool fresh = sample(now, tool);
     Eigen::Vector3d x, v, a;
@@ -54,7 +55,7 @@ class StraightforwardTick {
     times_[next_] = now;
     next_ = (next_ + 1) % history;
     if (fresh) sampled_ = true;
-    const Eigen::Vector3d tau = track(h, x + s_.wall, v, a, q, qdot, F_h);
+    const Eigen::Vector3d tau = track(obeyed ? h : 0, x + s_.wall, v, a, q, qdot, F_h);
     started_ = true;
     now_ = now;
     F_h_ = F_h;
@@ -73,6 +74,10 @@ class StraightforwardTick {
     }
     return std::expm1(l) / s;
   }
+
+  /// Of an axis: (k, b), and Gamma.
+  [[nodiscard]] Eigen::Vector2d theta(int axis) const { return axes_[static_cast<std::size_t>(axis)].theta; }
+  [[nodiscard]] Eigen::Matrix2d Gamma(int axis) const { return axes_[static_cast<std::size_t>(axis)].Gamma; }
 
  private:
   static constexpr std::size_t history = 512;  // the delay is at least a tick
