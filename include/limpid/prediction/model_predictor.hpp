@@ -57,12 +57,6 @@ struct Estimated {};
 /// -1.5) to 0.54 and 0.88 (`sampled_radius`). Take a gain that is stable in both, none, or a `ScheduledGain` whose box
 /// holds free space.
 ///
-/// A constant gain is designed for a tissue. Where that is not touched (`Unilateral`) the tool alone is left, and the
-/// same gain may be unstable: for a tool of 0.1 kg and 0.1 N s/m seen every 16 ms, 16 ms late, (-195.1, -4.89) takes
-/// the error to 0.51 of itself from sample to sample in 900 N/m, 25 N s/m, and to 1.18 of itself in free space; (-20,
-/// -1.5) to 0.54 and 0.88 (`sampled_radius`). Take a gain that is stable in both, none, or a `ScheduledGain` whose box
-/// holds free space.
-///
 /// Absurd inputs leave no lasting trace. A motion, a model or a force whose squares are not finite is not taken over,
 /// nor a sample for which L e_zd / m_t is not finite: not_finite says so. A step that leads to such a motion is not
 /// taken: the tool stands at its last good motion, e_zd is forgotten, and what was observed for the tick is taken over
