@@ -25,10 +25,11 @@ using Predictor = ModelPredictor<KelvinVoigt<1>, Tool<1>, Known>;
 One one(double value) { return One::Constant(value); }
 
 // At rest, with an error of -1 mm from 10 ms on.
-Predictor with_error(double L1, double L2) {
+Predictor with_error(double L1, double L2, double lost_beyond = 0.1) {
   Predictor predictor({.tool = {.mass = 0.1, .damping = 0.5, .stiffness = 200},
                        .theta = KelvinVoigt<1>::Theta(800, 1.5),
-                       .gain = {L1, L2}});
+                       .gain = {L1, L2},
+                       .lost_beyond = lost_beyond});
   for (int k = 0; k < 10; ++k) (void)predictor.advance(k * 1ms, one(0));
   REQUIRE(predictor.observe({{one(0.001), one(0), one(0), one(0)}, 5ms, 10ms}) == Status::ok);
   return predictor;
@@ -70,7 +71,7 @@ TEST_CASE("a gain that is not finite is not taken over") {
 }
 
 TEST_CASE("a gain that would make a force without bounds of the error that is held is not taken over") {
-  Predictor predictor = with_error(0, 0);
+  Predictor predictor = with_error(0, 0, 1e11);
   REQUIRE(predictor.observe({{one(1e10), one(0), one(0), one(0)}, 9ms, 10ms}) == Status::ok);
   (void)predictor.advance(10ms, one(0));
   CHECK(predictor.replace_gain({1e300, 0.0}) == Status::not_finite);  // 1e300 * 1e10 / 0.1

@@ -28,7 +28,7 @@ template <typename Mask>
     using Half [[gnu::vector_size(16)]] = long long;
     Half low, high;
     std::memcpy(&low, &mask, sizeof low);
-    std::memcpy(&high, reinterpret_cast<const char*>(&mask) + sizeof low, sizeof high);
+    std::memcpy(&high, static_cast<const char*>(static_cast<const void*>(&mask)) + sizeof low, sizeof high);
     const Half both = low | high;
     return any_lane(both);
 #endif

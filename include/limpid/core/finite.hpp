@@ -37,7 +37,7 @@ template <typename First, typename... Rest>
     const Eigen::Array<Scalar, First::SizeAtCompileTime, 1, Eigen::DontAlign> zero =
         ((first.derived() * none) + ... + (rest.derived() * none));
     return !detail::any_entry(
-        [](auto& mask, const auto& z) __attribute__((always_inline)) { mask = z != z; }, zero);
+        [](auto& mask, const auto& z) __attribute__((always_inline)) { mask = z != Scalar{0}; }, zero);
   } else {
     return ((first.derived() * none) + ... + (rest.derived() * none)).sum() == none;
   }

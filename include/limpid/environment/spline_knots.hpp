@@ -55,7 +55,7 @@ class SplineKnots {
   }
 
   [[nodiscard]] SplineWeights<Scalar> at(const Scalar& x) const noexcept {
-    const Scalar first = static_cast<Scalar>(low_ + 1), last = static_cast<Scalar>(high_ - 1);
+    const auto first = static_cast<Scalar>(low_ + 1), last = static_cast<Scalar>(high_ - 1);
     const Scalar in_spacings = x / spacing_;
     const Scalar inside = std::min(std::max(in_spacings, first), last);
     const int i = std::min(cell(inside), high_ - 2);

@@ -22,7 +22,9 @@ class SymmetricLanes {
   [[nodiscard]] const Array& operator()(int i, int j) const noexcept { return upper_[i < j ? at(i, j) : at(j, i)]; }
 
  private:
-  static constexpr std::size_t at(int i, int j) { return std::size_t(j * (j + 1) / 2 + i); }  // i <= j
+  static constexpr std::size_t at(int i, int j) {
+    return std::size_t(j) * (std::size_t(j) + 1) / 2 + std::size_t(i);
+  }  // i <= j
 
   std::array<Array, std::size_t(N*(N + 1) / 2)> upper_;
 };

@@ -105,7 +105,7 @@ class TissueLaw {
     Scalar second;
   };
   [[nodiscard]] DamperWeights damper_weights(const Scalar& x) const noexcept {
-    const Scalar low = static_cast<Scalar>(dampers_.low), high = static_cast<Scalar>(dampers_.high);
+    const auto low = static_cast<Scalar>(dampers_.low), high = static_cast<Scalar>(dampers_.high);
     const Scalar at = std::min(std::max(x / settings_.damper_spacing, low), high);
     const int first = std::min(SplineKnots<Scalar>::cell(at), dampers_.high - 1);
     return {first, at - static_cast<Scalar>(first)};

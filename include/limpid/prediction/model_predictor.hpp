@@ -303,7 +303,7 @@ class ModelPredictor {
     const auto [mine, status] = history_.at(newest_.taken());
     if (!before && status != Status::ok) return status;
     const State error = (before ? start_ : mine) - observation_;
-    if (!are_finite(feedback_of(gain_, error)) || !moderate(observation_)) return Status::not_finite;
+    if (!are_finite(feedback_of(gain_, error))) return Status::not_finite;
     if (any_above(Array(error.x.abs()), lost_beyond_)) [[unlikely]]
       return lose(at);
     doubted_ = false;
@@ -314,7 +314,7 @@ class ModelPredictor {
   // One sample far off may be wrong itself; after a second one the tool is where that was.
   Status lose(State& at) noexcept {
     error_ = {};
-    if (doubted_) at = observation_;
+    if (doubted_ && moderate(observation_)) at = observation_;
     if constexpr (!exact) look_around(at);
     doubted_ = true;
     return Status::lost;
