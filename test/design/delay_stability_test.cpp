@@ -226,8 +226,8 @@ TEST_CASE("the unit of time does not matter, however small or large") {
 }
 
 TEST_CASE("a tool whose stiffness over its mass is no number is refused") {
-  const Tool<1> tool{.mass = 1e-300, .damping = 1, .stiffness = 1e300};
-  CHECK_THROWS_WITH_AS((void)delay_margin<double>(tool, {0, 0}, {-1e300, 0}),
+  const Tool<1> extreme{.mass = 1e-300, .damping = 1, .stiffness = 1e300};
+  CHECK_THROWS_WITH_AS((void)delay_margin<double>(extreme, {0, 0}, {-1e300, 0}),
                        "Tool: stiffness: expected finite over the mass, got 1e+300", std::invalid_argument);
 }
 
