@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace limpid {
 
 /// How noisy a measurement is, learnt from its innovations: the posterior over a few levels of standard deviation, each
 /// as probable as the next at first. An innovation e of a measurement whose prediction has variance s has the density
-/// of N(0, s + level^2) at each level; older ones are forgotten. The variance to use is the posterior's mean, which
-/// falls within a few samples from the largest level to that of a clean signal, and rises at once.
+/// of N(0, s + level^2) at each level; older ones are forgotten. The variance to use is the posterior's mean.
 /// @tparam Levels  how many
 /// @realtime       no allocation, no throw for built-in scalars; two logarithms or exponentials a level
 template <std::size_t Levels, Real Scalar = double>

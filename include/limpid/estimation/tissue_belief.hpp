@@ -102,6 +102,11 @@ class TissueBelief {
     }
   }
 
+  /// P + factor v v'. Of the same products in either triangle: P stays symmetric to the last bit.
+  void add_rank_one(const State& v, const Scalar& factor) noexcept {
+    for (int j = 0; j < states; ++j) P.col(j) += (v * v[j]) * factor;
+  }
+
   /// P H of three measurements, by the columns of P that have a say.
   void project_rows(const Rows& H, Rows& PH) const noexcept {
     PH.setZero();
@@ -214,6 +219,7 @@ class TissueBelief {
       const int place = Law::coefficient(low + i);
       P(place, place) += bend_variance() / Scalar(10000);
     }
+    P = ((P + P.transpose()) / Scalar{2}).eval();
   }
 
   Settings settings_;

@@ -34,8 +34,9 @@ namespace limpid {
 /// are is learnt, and whether the tissue has changed as a whole. See TissueLaw for the law.
 /// @tparam Law       TissueLaw
 /// @tparam Capacity  ticks between two samples at most; where there are more, learning starts again from the sample
-/// @realtime         no allocation, no throw for built-in scalars; some 8 states^2 + 400 flops a tick of the interval,
-///                   at the sample
+/// @realtime         no allocation, no throw for built-in scalars. All at the sample: for each iteration a replay of
+/// some
+///                   300 flops a tick and, where the interval spans the whole range, 6 states^2; 6 states^2 once
 template <typename Law = TissueLaw<>, std::size_t Capacity = 512>
 class TissueLearner {
  public:
@@ -68,17 +69,15 @@ class TissueLearner {
   }
   [[nodiscard]] Time taken() const noexcept { return taken_; }
 
-  /// Variance of F_e, x and v as it is known to be, N^2, m^2, (m/s)^2.
-  [[nodiscard]] const Scalar& force_variance() const noexcept { return force_noise_.variance(); }
-
   /// Takes in a sample, newer than the one before.
   /// @param forces  operator's force, N, at least from the sample before to this one; linear between its entries
   template <std::size_t N>
   void learn(const AxisSample<Scalar>& sample, const History<Scalar, N>& forces) noexcept {
     if (!started_) return start(sample);
-    if (!replay_.find_steps(forces, taken_, sample.taken)) return restart(sample);
+    if (!replay_.find_steps(law(), forces, taken_, sample.taken)) return restart(sample);
+    const bool near = replay_.walk(law(), belief_.s, memory_, sample);
     cover(sample);
-    if (!replay_.evaluate(law(), belief_.s, memory_, sample, here_)) return restart(sample);
+    if (!near || !replay_.linearise(law(), belief_.s, sample, here_)) return restart(sample);
     weigh(sample);
     iterate(sample);
     take_in();
@@ -133,9 +132,7 @@ class TissueLearner {
     belief_.P.template topRows<3>().setZero();
     belief_.P.template leftCols<3>().setZero();
     place(z);
-    if (law().knots().at(z.x).first >= law().knots().low()) {
-      take_force(z, force_noise_.variance() + Scalar(1) / Scalar(10000));
-    }
+    take_force(z, force_noise_.variance() + Scalar(1) / Scalar(10000));
   }
 
   void place(const AxisSample<Scalar>& z) noexcept {
@@ -158,19 +155,12 @@ class TissueLearner {
     const State gain = belief_.P * e.H.col(2);
     const Scalar whole = e.H.col(2).dot(gain) + variance;
     belief_.s += gain * ((z.force - law().force(belief_.s, {z.x, z.v, Scalar{0}, memory_})) / whole);
-    for (int j = 0; j < states; ++j) belief_.P.col(j) -= gain * (gain[j] / whole);
+    belief_.add_rank_one(gain, Scalar{-1} / whole);
   }
 
   // The law's range holds the sample and, as it is known now, the way to it.
   void cover(const AxisSample<Scalar>& z) noexcept {
-    Scalar low = std::min(belief_.s[Law::position], z.x), high = std::max(belief_.s[Law::position], z.x);
-    const Scalar near(Scalar(2) / Scalar(1000));
-    replay_.walk(law(), belief_.s, newest(), [&](const Point& p) {
-      using std::abs;
-      if (!(abs(p.x - z.x) < near)) return;
-      low = std::min(low, p.x);
-      high = std::max(high, p.x);
-    });
+    const auto [low, high] = replay_.range(z.x, Scalar(2) / Scalar(1000));
     belief_.extend(low - law().knots().spacing(), high + law().knots().spacing());
   }
 
@@ -207,7 +197,7 @@ class TissueLearner {
     const Scalar3 effect = here_.H.transpose() * whole;
     const Scalar variance = scale_.variance(S + W_, here_.y, effect, T);
     if (!(variance > Scalar{0})) return;
-    for (int j = 0; j < states; ++j) belief_.P.col(j) += whole * (whole[j] * variance);
+    belief_.add_rank_one(whole, variance);
     belief_.project_rows(here_.H, PH_);
     S = here_.H.transpose() * PH_;
   }
@@ -232,7 +222,7 @@ class TissueLearner {
       Scalar part{1};
       for (int half = 0; half < 6 && !taken; ++half, part /= Scalar{2}) {
         const State trial_u = u_ + part * (u - u_), trial = si_ + part * (target - si_);
-        if (!replay_.evaluate(law(), trial, memory_, z, there_)) continue;
+        if (!replay_.walk(law(), trial, memory_, z) || !replay_.linearise(law(), trial, z, there_)) continue;
         const Scalar then = cost(trial_u, trial, there_.y);
         if (!(then <= before)) continue;
         std::swap(here_, there_);
@@ -251,6 +241,8 @@ class TissueLearner {
     const Matrix3 S = here_.H.transpose() * PH_ + W_;
     const Cholesky3<Scalar> factor(S);
     missing_ = factor.solve(here_.y - here_.H.transpose() * (belief_.s - si_));
+    Matrix3 kept;  // S^-1 W: what of P H is left
+    for (int k = 0; k < 3; ++k) kept.col(k) = factor.solve(W_.col(k));
     const Matrix3& G = factor.lower();
     Rows B;
     B.col(0) = PH_.col(0) / G(0, 0);
@@ -259,12 +251,12 @@ class TissueLearner {
     for (int j = 0; j < states; ++j) {
       belief_.P.col(j) -= B.col(0) * B(j, 0) + B.col(1) * B(j, 1) + B.col(2) * B(j, 2);
     }
+    PH_ = (PH_ * kept).eval();
   }
 
   // From the sample before to this one.
   void carry_forward(const AxisSample<Scalar>& z) noexcept {
     const Matrix3 Q = process();
-    belief_.project_rows(here_.H, PH_);
     const Matrix3 HPH = here_.H.transpose() * PH_;
     belief_.s = si_;
     for (int k = 0; k < 2; ++k) {
@@ -291,7 +283,6 @@ class TissueLearner {
     law().visit(z.x);
     State u = State::Zero();
     belief_.keep_physical(belief_.s, u);
-    belief_.P = ((belief_.P + belief_.P.transpose()) / Scalar{2}).eval();
   }
 
   Settings settings_;

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -50,8 +51,9 @@ class TissueReplay {
   /// Finds the steps between two instants, over which the operator's force (N) is linear.
   /// @return  false where there are more than Capacity, or not enough forces
   template <std::size_t N>
-  [[nodiscard]] bool find_steps(const History<Scalar, N>& forces, Time from, Time to) noexcept {
+  [[nodiscard]] bool find_steps(const Law& law, const History<Scalar, N>& forces, Time from, Time to) noexcept {
     step_count_ = 0;
+    residual_left_ = Scalar{1};
     const auto first = forces.at(from);
     if (first.status != Status::ok || forces.at(to).status != Status::ok || to <= from) return false;
     Time t = from;
@@ -62,26 +64,17 @@ class TissueReplay {
       const bool within = i < forces.size() && forces.time(i) <= to;
       const Time next = within ? forces.time(i) : to;
       const Scalar F1 = within ? forces.value(i) : forces.at(to).value;
-      steps_[step_count_++] = {in_seconds<Scalar>(elapsed(next, t)), F, F1};
+      add_step(law, in_seconds<Scalar>(elapsed(next, t)), F, F1);
       t = next;
       F = F1;
     }
     return true;
   }
 
-  /// Where the way leads, step by step.
-  template <typename Visitor>
-  void walk(Law& law, const State& s, Point p, Visitor&& visit) const noexcept {
-    for (std::size_t i = 0; i < step_count_; ++i) {
-      law.template step<false>(s, p, steps_[i].F0, steps_[i].F1, steps_[i].h);
-      visit(p);
-    }
-  }
-
-  /// Replays the interval from s.
+  /// Replays the interval from s, and keeps the path.
   /// @return  false where that leads nowhere near the sample
-  [[nodiscard]] bool evaluate(Law& law, const State& s, const typename Law::Memory& memory, const AxisSample<Scalar>& z,
-                              Evaluation& e) noexcept {
+  [[nodiscard]] bool walk(Law& law, const State& s, const typename Law::Memory& memory,
+                          const AxisSample<Scalar>& z) noexcept {
     using std::abs;
     Point p{s[Law::position], s[Law::velocity], s[Law::residual], memory};
     path_[0] = p;
@@ -89,8 +82,26 @@ class TissueReplay {
       law.template step<false>(s, p, steps_[i].F0, steps_[i].F1, steps_[i].h);
       path_[i + 1] = p;
     }
-    e.end = p;
-    if (!(abs(p.x - z.x) < Scalar(5) / Scalar(100)) || !(abs(p.v - z.v) < Scalar(5))) return false;
+    return abs(p.x - z.x) < Scalar(5) / Scalar(100) && abs(p.v - z.v) < Scalar(5);
+  }
+
+  /// Depths of the path that was kept, those farther than `near` from x left out; x itself is within. m.
+  [[nodiscard]] std::pair<Scalar, Scalar> range(const Scalar& x, const Scalar& near) const noexcept {
+    using std::abs;
+    std::pair<Scalar, Scalar> range{x, x};
+    for (std::size_t i = 0; i <= step_count_; ++i) {
+      if (i > 0 && !(abs(path_[i].x - x) < near)) continue;
+      range.first = std::min(range.first, path_[i].x);
+      range.second = std::max(range.second, path_[i].x);
+    }
+    return range;
+  }
+
+  /// What the end of the path that was kept has of s.
+  /// @return  false where that has no bounds
+  [[nodiscard]] bool linearise(const Law& law, const State& s, const AxisSample<Scalar>& z,
+                               Evaluation& e) const noexcept {
+    const Point& p = e.end = path_[step_count_];
     sensitivities(law, s, e);
     const Point at{z.x, z.v, p.residual, p.memory};
     add_row(law, e.H, 2, at, Scalar{1});
@@ -118,17 +129,24 @@ class TissueReplay {
  private:
   struct Step {
     Scalar h, F0, F1;
+    Scalar fade;  // of the residual force
   };
+
+  void add_step(const Law& law, const Scalar& h, const Scalar& F0, const Scalar& F1) noexcept {
+    const bool alike = step_count_ > 0 && steps_[step_count_ - 1].h == h;
+    const Scalar fade = alike ? steps_[step_count_ - 1].fade : law.residual_left(h);
+    steps_[step_count_++] = {h, F0, F1, fade};
+    residual_left_ *= fade;
+  }
 
   // dx/ds and dv/ds at the end, backwards along the path: the adjoint of the step's trapezoidal linearisation.
   void sensitivities(const Law& law, const State& s, Evaluation& e) const noexcept {
     e.H.setZero();
     const Scalar per_mass = Scalar{1} / law.settings().mass, half = Scalar{1} / Scalar{2};
     Eigen::Matrix<Scalar, 2, 2> L = Eigen::Matrix<Scalar, 2, 2>::Identity();
-    Scalar left{1}, rx{0}, rv{0};
+    Scalar rx{0}, rv{0};
     e.x_gain = e.v_gain = Scalar{0};
-    for (std::size_t i = 0; i < step_count_; ++i) left *= law.residual_left(steps_[i].h);
-    e.residual_left = left;
+    e.residual_left = residual_left_;
     for (std::size_t i = step_count_; i-- > 0;) {
       const Scalar& h = steps_[i].h;
       const Point mid = between(path_[i], path_[i + 1]);
@@ -141,7 +159,8 @@ class TissueReplay {
       const Eigen::Matrix<Scalar, 2, 1> gain = L * inverse.col(1) * (-h * per_mass);
       add_row(law, e.H, 0, mid, gain[0]);
       add_row(law, e.H, 1, mid, gain[1]);
-      const Scalar fade = law.residual_left(h), mean_fade = half * (Scalar{1} + fade);
+      const Scalar& fade = steps_[i].fade;
+      const Scalar mean_fade = half * (Scalar{1} + fade);
       rx = gain[0] * mean_fade + rx * fade;
       rv = gain[1] * mean_fade + rv * fade;
       e.x_gain += gain[0];
@@ -169,6 +188,7 @@ class TissueReplay {
   std::array<Step, Capacity> steps_{};
   std::array<Point, Capacity + 1> path_{};
   std::size_t step_count_ = 0;
+  Scalar residual_left_{1};
 };
 
 }  // namespace limpid
