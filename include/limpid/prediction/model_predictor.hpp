@@ -16,8 +16,8 @@
 #include <limpid/estimation/environment_estimate.hpp>
 #include <limpid/prediction/gains.hpp>
 #include <limpid/prediction/lane_motion.hpp>
-#include <limpid/prediction/nonlinear_step.hpp>
 #include <limpid/prediction/predictor.hpp>
+#include <limpid/prediction/tool_in_model.hpp>
 #include <limpid/signal/history.hpp>
 #include <limpid/signal/intersample.hpp>
 #include <limpid/signal/sample.hpp>
@@ -105,29 +105,18 @@ class ModelPredictor {
 
   /// @throws std::invalid_argument  where the tool, the gain or a field is refused
   explicit ModelPredictor(const Settings& settings)
-      : environment_{settings.environment},
+      : inside_{settings.environment, checked(settings).tool},
         gain_{settings.gain},
         intersample_{settings.intersample},
         lost_beyond_{settings.lost_beyond},
-        theta_{settings.theta},
         next_theta_{settings.theta},
-        motion_{settings.start},
         start_{settings.start} {
-    const ToolModel& tool = settings.tool;
-    tool.check();
-    gain_.check();
-    expect(is_finite(theta_), "ModelPredictor: theta", "finite", theta_);
-    expect(is_finite(settings.start), "ModelPredictor: start", "finite", "a motion that is not");
-    expect(moderate(motion_), "ModelPredictor: start", "finite squares", "a motion that is too large");
-    expect(lost_beyond_ > Scalar{0}, "ModelPredictor: lost_beyond", "> 0", lost_beyond_);
-    per_mass_ = Scalar{1} / tool.mass;
-    expect(is_finite(per_mass_), "ModelPredictor: tool.mass", "a finite 1/mass", tool.mass);
-    own_ = {Array::Constant(tool.stiffness * per_mass_), Array::Constant(tool.damping * per_mass_),
-            to_lanes<axes>(Vector(tool.anchor * (tool.stiffness * per_mass_)))};
-    if constexpr (exact) probe_parameters();
-    model_ = model_of(theta_, motion_);
-    expect(moderate(model_), "ModelPredictor: theta", "a finite stiffness and damping over the tool's mass", theta_);
-    next_model_ = model_;
+    course_.at = start_;
+    expect(moderate(start_), "ModelPredictor: start", "finite squares", "a motion that is too large");
+    course_.theta = settings.theta;
+    course_.model = next_model_ = inside_.model_of(settings.theta, start_);
+    expect(next_model_.moderate(), "ModelPredictor: theta", "a finite stiffness and damping over the tool's mass",
+           settings.theta);
   }
 
   /// Takes in an estimate; it holds from the next `advance` on.
@@ -138,9 +127,9 @@ class ModelPredictor {
       if ((estimate.theta_hat == next_theta_).all()) return Status::ok;
       if (!is_finite(estimate.theta_hat)) return Status::not_finite;
     }
-    const Model model = model_of(estimate.theta_hat, motion_);
-    if (exact && same(model, next_model_)) return Status::ok;
-    if (!moderate(model)) return Status::not_finite;
+    const Model model = inside_.model_of(estimate.theta_hat, course_.at);
+    if (exact && model.same_as(next_model_)) return Status::ok;
+    if (!model.moderate()) return Status::not_finite;
     if constexpr (needs_theta) next_theta_ = estimate.theta_hat;
     next_model_ = model;
     estimated_ = true;
@@ -175,27 +164,35 @@ class ModelPredictor {
   }
 
  private:
-  using Array = Lanes<axes, Scalar>;
-  using State = detail::LaneMotion<axes, Scalar>;
+  using Inside = detail::ToolInModel<Env>;
+  using Array = typename Inside::Array;
+  using State = typename Inside::State;
+  using Model = typename Inside::Model;
 
-  static constexpr bool exact = LinearEnvironment<Env> && DecoupledEnvironment<Env>;
+  static constexpr bool exact = Inside::exact;
 
   // Else the model says it all.
   static constexpr bool needs_theta = !exact || Gain::scheduled;
 
-  // Of x'' + beta x' + kappa x = (F_h + L e) / m + constant.
-  using Model = detail::LaneModel<axes, Scalar>;
+  static const Settings& checked(const Settings& s) {
+    s.tool.check();
+    s.gain.check();
+    expect(is_finite(s.theta), "ModelPredictor: theta", "finite", s.theta);
+    expect(is_finite(s.start), "ModelPredictor: start", "finite", "a motion that is not");
+    expect(s.lost_beyond > Scalar{0}, "ModelPredictor: lost_beyond", "> 0", s.lost_beyond);
+    return s;
+  }
 
   [[nodiscard]] Prediction<axes, Scalar> advanced(Time now, const Array& F_h) noexcept {
-    const Array pushed = F_h * per_mass_;
+    const Array pushed = F_h * inside_.per_mass();
     if (started_ && now <= now_) [[unlikely]]
       return untouched(are_finite(pushed * pushed) ? Status::clock_backwards : Status::not_finite);
     const Scalar dt = started_ ? in_seconds<Scalar>(elapsed(now, now_)) : Scalar{0};
-    State next = motion_;
+    State next = course_.at;
     Status status = started_ ? step(next, dt, pushed) : Status::ok;
     if (!are_finite(next.x * next.x, next.v * next.v, pushed * pushed)) [[unlikely]] {
       if (!are_finite(pushed * pushed)) return untouched(Status::not_finite);
-      next = motion_;
+      next = course_.at;
       error_ = {};
       status |= Status::not_finite;
     }
@@ -205,7 +202,7 @@ class ModelPredictor {
     pushed_ = pushed;
     history_.append(now, next);
     take_over_estimate();
-    if constexpr (!exact) look_around(next);
+    inside_.look_around(course_, next);
     if constexpr (Gain::scheduled) status |= schedule(dt, next);
     status |= take_over_sample(next);
     fed_back_ = feedback_of(gain_, error_);
@@ -216,81 +213,38 @@ class ModelPredictor {
       fed_back_.setZero();
       status |= Status::not_finite;
     }
-    motion_ = next;
+    course_.at = next;
     acceleration_ = a;
     return {next.with(a), status | when(!newest_.any(), Status::no_sample)};
   }
 
   [[nodiscard]] Prediction<axes, Scalar> untouched(Status status) const noexcept {
-    return {motion_.with(acceleration_), status};
-  }
-
-  // The environment beside the tool; where it is not linear, about `at`.
-  [[nodiscard, gnu::always_inline]] Model model_of(const Theta& theta, const State& at) const noexcept {
-    if constexpr (exact) {
-      const auto columns = to_lane_columns<axes>(theta);
-      Model model = at_zero_;
-      for (std::size_t j = 0; j < columns.size(); ++j) {
-        model.kappa += per_parameter_[j].kappa * columns[j];
-        model.beta += per_parameter_[j].beta * columns[j];
-        model.constant += per_parameter_[j].constant * columns[j];
-      }
-      return model;
-    } else {
-      const Model of_environment = environment_about(theta, from_lanes<axes>(at.x), from_lanes<axes>(at.v));
-      return {own_.kappa + of_environment.kappa, own_.beta + of_environment.beta,
-              own_.constant + of_environment.constant};
-    }
-  }
-
-  // Of the environment alone.
-  [[nodiscard]] Model environment_about(const Theta& theta, const Vector& x, const Vector& v) const noexcept {
-    const auto [force, tangent] = response_of(environment_, theta, x, v);
-    const Vector rest = force - tangent.stiffness * x - tangent.damping * v;
-    return {to_lanes<axes>(tangent.stiffness) * per_mass_, to_lanes<axes>(tangent.damping) * per_mass_,
-            to_lanes<axes>(rest) * -per_mass_};
-  }
-
-  // Of an environment that is linear the model is affine in theta, and known by its values at zero and the unit thetas.
-  void probe_parameters() noexcept {
-    const Vector none = Vector::Zero();
-    const Model zero = environment_about(Theta::Zero(), none, none);
-    at_zero_ = {own_.kappa + zero.kappa, own_.beta + zero.beta, own_.constant + zero.constant};
-    for (int j = 0; j < parameters; ++j) {
-      Theta unit = Theta::Zero();
-      unit.col(j).setOnes();
-      const Model one = environment_about(unit, none, none);
-      per_parameter_[static_cast<std::size_t>(j)] = {one.kappa - zero.kappa, one.beta - zero.beta,
-                                                     one.constant - zero.constant};
-    }
+    return {course_.at.with(acceleration_), status};
   }
 
   // L e / m, m/s^2
   [[nodiscard]] Array feedback_of(const Gain& gain, const State& error) const noexcept {
     const auto& L = gain.row();
-    return (to_lanes<axes>(L.L1) * error.x + to_lanes<axes>(L.L2) * error.v) * per_mass_;
+    return (to_lanes<axes>(L.L1) * error.x + to_lanes<axes>(L.L2) * error.v) * inside_.per_mass();
   }
 
   // Whether the squares are finite: then so are the products and sums that follow from moderate values.
   static bool moderate(const State& s) noexcept { return are_finite(s.x * s.x, s.v * s.v); }
-  static bool moderate(const Model& m) noexcept {
-    return are_finite(m.kappa * m.kappa, m.beta * m.beta, m.constant * m.constant);
-  }
 
   // theta_hat from now on.
   void take_over_estimate() noexcept {
     if constexpr (std::same_as<Parameters, Estimated>) {
       if (!estimated_) return;
       estimated_ = false;
-      if constexpr (needs_theta) theta_ = next_theta_;
-      model_ = next_model_;
-      h_ = Scalar{0};  // of no step
+      if constexpr (needs_theta) course_.theta = next_theta_;
+      course_.model = next_model_;
+      course_.h = Scalar{0};  // of no step
     }
   }
 
   // A tangent that is not finite would stay in the schedule for ever.
   Status schedule(const Scalar& dt, const State& at) noexcept {
-    const auto rho = Traits::tangent(environment_, theta_, from_lanes<axes>(at.x), from_lanes<axes>(at.v));
+    const auto rho = inside_.tangent(course_.theta, at);
     if (!is_finite(rho.stiffness) || !is_finite(rho.damping)) return Status::not_finite;
     return gain_.update(dt, rho);
   }
@@ -315,88 +269,35 @@ class ModelPredictor {
   Status lose(State& at) noexcept {
     error_ = {};
     if (doubted_ && moderate(observation_)) at = observation_;
-    if constexpr (!exact) look_around(at);
+    inside_.look_around(course_, at);
     doubted_ = true;
     return Status::lost;
-  }
-
-  // The tangent there, for the next step; where it is the one before, as in free space, so is the response.
-  void look_around(const State& at) noexcept {
-    const Model model = model_of(theta_, at);
-    if (!(((model.kappa - model_.kappa).abs() + (model.beta - model_.beta).abs()).sum() == Scalar{0}))
-      h_ = Scalar{0};  // of no step
-    model_ = model;
-  }
-  static bool same(const Model& a, const Model& b) noexcept {
-    const Array distance = (a.kappa - b.kappa).abs() + (a.beta - b.beta).abs() + (a.constant - b.constant).abs();
-    if constexpr (detail::in_packets<Array>) {
-      return detail::all_at_most(distance, Scalar{0});
-    } else {
-      return distance.sum() == Scalar{0};
-    }
   }
 
   // From the last tick to the next one, dt seconds later, at whose end F_h / m is `pushed`.
   Status step(State& to, const Scalar& dt, const Array& pushed) noexcept {
     const Array f0 = pushed_ + fed_back_;
     const Array f1 = intersample_ == Intersample::linear ? Array(pushed + fed_back_) : f0;
-    if (dt != h_) {
-      response_.set_lanes(model_.kappa, model_.beta, dt);
-      h_ = dt;
-    }
-    if constexpr (exact) {
-      response_.advance_lanes(to.x, to.v, f0 + model_.constant, f1 + model_.constant);
-    } else if constexpr (DecoupledEnvironment<Env>) {
-      const auto model_at = [&](const State& at) noexcept { return model_of(theta_, at); };
-      const detail::NonlinearStep<axes, Scalar, decltype(model_at)> nonlinear(model_at);
-      if (!(nonlinear.follow(to, model_, response_, dt, f0, f1) <= Scalar{1})) [[unlikely]] {
-        to = motion_;
-        return nonlinear.substeps(to, model_, dt, f0, f1);
-      }
-    } else {
-      correct(to, f0, f1);
-    }
-    return Status::ok;
-  }
-
-  // Of axes that feel each other the force beside the tangent goes as t, and is taken as linear.
-  void correct(State& to, const Array& f0, const Array& f1) noexcept {
-    const State from = to;
-    response_.advance_lanes(to.x, to.v, f0 + model_.constant, f1 + model_.constant);
-    for (int correction = 0; correction < 2; ++correction) {
-      const Array F_e =
-          to_lanes<axes>(Vector(Traits::force(environment_, theta_, from_lanes<axes>(to.x), from_lanes<axes>(to.v))));
-      const Array rest =
-          own_.constant - F_e * per_mass_ + (model_.kappa - own_.kappa) * to.x + (model_.beta - own_.beta) * to.v;
-      to = from;
-      response_.advance_lanes(to.x, to.v, f0 + model_.constant, f1 + rest);
-    }
+    return inside_.step(course_, to, dt, f0, f1);
   }
 
   [[nodiscard]] Array acceleration(const State& at) const noexcept {
-    return pushed_ + fed_back_ + model_.constant - model_.beta * at.v - model_.kappa * at.x;
+    return Inside::acceleration(course_.model, at, pushed_ + fed_back_);
   }
 
-  Env environment_;
+  Inside inside_;
   Gain gain_;
   Intersample intersample_;
-  Scalar per_mass_{};   // 1/kg
-  Scalar lost_beyond_;  // m
-  Model own_;           // the tool alone
-  // where exact: the model of theta = 0, and what each parameter adds
-  Model at_zero_;
-  std::array<Model, exact ? std::size_t{parameters} : 0> per_parameter_;
-  Theta theta_, next_theta_;            // held; of the newest estimate
-  Model model_, next_model_;            // of theta_, of next_theta_
-  State motion_;                        // at the last tick
+  Scalar lost_beyond_;                  // m
+  typename Inside::Course course_;      // at the last tick
+  Theta next_theta_;                    // of the newest estimate
+  Model next_model_;                    // of next_theta_
   Array acceleration_ = Array::Zero();  // and there, m/s^2
   State start_;                         // before the first tick
   State error_{};                       // e_zd
   Array fed_back_ = Array::Zero();      // L e_zd / m_t, m/s^2
   Array pushed_ = Array::Zero();        // F_h / m_t at the last tick, m/s^2
-  Scalar h_{0};                         // dt that response_ is set for
-  SecondOrderStep<axes, Scalar> response_;
-  State observation_{};  // the newest sample's
+  State observation_{};                 // the newest sample's
   SampleStamps newest_;
   bool started_ = false, estimated_ = false, doubted_ = false;
   Time begin_{}, now_{};  // the first tick and the last

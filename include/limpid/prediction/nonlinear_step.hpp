@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/any_lane.hpp>
+#include <limpid/core/finite.hpp>
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
@@ -14,7 +16,29 @@ namespace limpid::detail {
 /// The coefficients of x'' + beta x' + kappa x = f + constant, about a point where the environment is not linear.
 template <int Axes, Real Scalar>
 struct LaneModel {
-  Lanes<Axes, Scalar> kappa, beta, constant;
+  using Array = Lanes<Axes, Scalar>;
+
+  Array kappa, beta, constant;
+
+  /// Whether the squares are finite: then so are the products and sums that follow from moderate values.
+  [[nodiscard]] bool moderate() const noexcept { return are_finite(kappa * kappa, beta * beta, constant * constant); }
+
+  [[nodiscard]] bool same_as(const LaneModel& other) const noexcept {
+    return none((kappa - other.kappa).abs() + (beta - other.beta).abs() + (constant - other.constant).abs());
+  }
+  /// The same but for the constant: then a response to the one is one to the other.
+  [[nodiscard]] bool responds_as(const LaneModel& other) const noexcept {
+    return none((kappa - other.kappa).abs() + (beta - other.beta).abs());
+  }
+
+ private:
+  static bool none(const Array& distance) noexcept {
+    if constexpr (in_packets<Array>) {
+      return all_at_most(distance, Scalar{0});
+    } else {
+      return distance.sum() == Scalar{0};
+    }
+  }
 };
 
 /// Steps of x'' + beta x' + kappa x = f + constant + w(t), where the coefficients are those at the step's start and w

@@ -71,7 +71,6 @@ class ReplayPredictor {
       : inside_{settings.environment, checked(settings).tool},
         intersample_{settings.intersample},
         ticks_per_update_{settings.ticks_per_update} {
-    expect(is_finite(inside_.per_mass()), "ReplayPredictor: tool.mass", "a finite 1/mass", settings.tool.mass);
     course_.at = State(settings.start);
     expect(moderate(course_.at), "ReplayPredictor: start", "finite squares", "a motion that is too large");
     course_.theta = next_theta_ = settings.theta;
@@ -148,7 +147,7 @@ class ReplayPredictor {
   [[nodiscard]] Motion<axes, Scalar> motion_of_last() const noexcept { return course_.at.with(acceleration_); }
 
   [[nodiscard]] Motion<axes, Scalar> answer(const Array& pushed, Status& status) noexcept {
-    const Array a = inside_.acceleration(course_, pushed);
+    const Array a = Inside::acceleration(course_.model, course_.at, pushed);
     if (are_finite(a)) [[likely]] {
       acceleration_ = a;
     } else {
@@ -160,16 +159,21 @@ class ReplayPredictor {
   // From the last tick to this one.
   Status go_on(Time now, const Array& pushed) noexcept {
     const State last = course_.at;
-    carry(course_, now_, forces_.value(forces_.size() - 1), now, pushed);
+    const Status status = carry(course_, now_, forces_.value(forces_.size() - 1), now, pushed);
     if (moderate(course_.at)) [[likely]]
-      return Status::ok;
+      return status;
     course_.at = last;
-    inside_.look_around(course_);
-    return Status::not_finite;
+    inside_.look_around(course_, last);
+    return status | Status::not_finite;
   }
 
-  void carry(Course& course, Time from, const Array& f0, Time to, const Array& f1) const noexcept {
-    inside_.step(course, in_seconds<Scalar>(elapsed(to, from)), f0, intersample_ == Intersample::linear ? f1 : f0);
+  Status carry(Course& course, Time from, const Array& f0, Time to, const Array& f1) const noexcept {
+    State next = course.at;
+    const Status status = inside_.step(course, next, in_seconds<Scalar>(elapsed(to, from)), f0,
+                                       intersample_ == Intersample::linear ? f1 : f0);
+    course.at = next;
+    inside_.look_around(course, next);
+    return status;
   }
 
   void take_over_estimate() noexcept {
@@ -178,7 +182,7 @@ class ReplayPredictor {
         course_.use(next_model_);
       } else if (!(course_.theta == next_theta_).all()) {
         course_.theta = next_theta_;
-        inside_.look_around(course_);
+        inside_.look_around(course_, course_.at);
       }
     }
   }
@@ -210,7 +214,7 @@ class ReplayPredictor {
     if (from < forces_.time(0)) return Status::out_of_history;
     replayed_ = course_;
     replayed_.at = next_;
-    inside_.look_around(replayed_);
+    inside_.look_around(replayed_, next_);
     at_ = from;
     pushed_ = force_at(from);
     replaying_ = true;
@@ -229,17 +233,18 @@ class ReplayPredictor {
     std::size_t i = forces_.first_not_before(at_);
     if (i == 0 && at_ < forces_.time(0)) return give_up(Status::out_of_history);
     if (forces_.time(i) == at_) ++i;
+    Status status = Status::ok;
     for (; i < size && left > 0; ++i, --left) {
-      carry(replayed_, at_, pushed_, forces_.time(i), forces_.value(i));
+      status |= carry(replayed_, at_, pushed_, forces_.time(i), forces_.value(i));
       at_ = forces_.time(i);
       pushed_ = forces_.value(i);
     }
-    if (!moderate(replayed_.at)) return give_up(Status::not_finite);
-    if (i < size) return Status::ok;
+    if (!moderate(replayed_.at)) return give_up(status | Status::not_finite);
+    if (i < size) return status;
     course_.at = replayed_.at;
-    inside_.look_around(course_);
+    inside_.look_around(course_, course_.at);
     replaying_ = false;
-    return Status::ok;
+    return status;
   }
 
   Status give_up(Status why) noexcept {

@@ -5,8 +5,10 @@
 #include <limpid/core/lanes.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>
+#include <limpid/core/status.hpp>
 #include <limpid/environment/environment.hpp>
 #include <limpid/prediction/lane_motion.hpp>
+#include <limpid/prediction/nonlinear_step.hpp>
 
 #include <array>
 #include <cstddef>
@@ -32,27 +34,18 @@ class ToolInModel {
   using Array = Lanes<axes, Scalar>;
   using State = LaneMotion<axes, Scalar>;
 
-  struct Model {
-    Array kappa, beta, constant;
-
-    [[nodiscard]] bool moderate() const noexcept { return are_finite(kappa * kappa, beta * beta, constant * constant); }
-    [[nodiscard]] bool operator==(const Model& other) const noexcept {
-      const Array difference =
-          (kappa - other.kappa).abs() + (beta - other.beta).abs() + (constant - other.constant).abs();
-      return difference.sum() == Scalar{0};
-    }
-  };
+  using Model = LaneModel<axes, Scalar>;
 
   /// Where a tool goes: its state, the parameters it moves by, and the response that the last step was taken with.
   struct Course {
-    State at;
+    State at{};
     Theta theta;  // not read where exact
     Model model;  // of theta, about `at`
-    SecondOrderStep<axes, Scalar> response;
+    SecondOrderStep<axes, Scalar> response{};
     Scalar h{0};  // s, for which response is set; 0: for none
 
     void use(const Model& next) noexcept {
-      if (!(next == model)) h = Scalar{0};
+      if (!next.responds_as(model)) h = Scalar{0};
       model = next;
     }
   };
@@ -69,7 +62,7 @@ class ToolInModel {
   [[nodiscard]] const Scalar& per_mass() const noexcept { return per_mass_; }  ///< 1/kg
 
   /// The coefficients; where not exact, about `at`.
-  [[nodiscard]] Model model_of(const Theta& theta, const State& at) const noexcept {
+  [[nodiscard, gnu::always_inline]] Model model_of(const Theta& theta, const State& at) const noexcept {
     if constexpr (exact) {
       const auto columns = to_lane_columns<axes>(theta);
       Model model = at_zero_;
@@ -87,28 +80,45 @@ class ToolInModel {
     }
   }
 
-  /// Where not exact: the coefficients about the state that was set.
-  void look_around(Course& course) const noexcept {
-    if constexpr (!exact) course.use(model_of(course.theta, course.at));
+  /// Where not exact: the coefficients about a state, for the next step. Where they are those before, as in free space,
+  /// so is the response.
+  void look_around(Course& course, const State& at) const noexcept {
+    if constexpr (!exact) course.use(model_of(course.theta, at));
   }
 
-  /// Takes a course over dt seconds.
-  /// @param f0, f1  F_h / m at the start and at the end, linear between, m/s^2
-  void step(Course& course, const Scalar& dt, const Array& f0, const Array& f1) const noexcept {
+  /// The environment's, for schedules.
+  [[nodiscard]] Tangents<axes, Scalar> tangent(const Theta& theta, const State& at) const noexcept {
+    return Traits::tangent(environment_, theta, limpid::from_lanes<axes>(at.x), limpid::from_lanes<axes>(at.v));
+  }
+
+  /// Takes a state on a course over dt seconds; its end's tangent is to be looked at after that.
+  /// @param to      at the start where the course is, and at the end where it comes to
+  /// @param f0, f1  (F_h + other forces) / m at the start and at the end, linear between, m/s^2
+  /// @return  coarse: parts of the step were too long for a nonlinear environment, see NonlinearStep
+  [[gnu::always_inline]] Status step(Course& course, State& to, const Scalar& dt, const Array& f0,
+                                     const Array& f1) const noexcept {
     if (dt != course.h) {
       course.response.set_lanes(course.model.kappa, course.model.beta, dt);
       course.h = dt;
     }
     if constexpr (exact) {
-      course.response.advance_lanes(course.at.x, course.at.v, f0 + course.model.constant, f1 + course.model.constant);
+      course.response.advance_lanes(to.x, to.v, f0 + course.model.constant, f1 + course.model.constant);
+    } else if constexpr (DecoupledEnvironment<Env>) {
+      const auto model_at = [&](const State& at) noexcept { return model_of(course.theta, at); };
+      const NonlinearStep<axes, Scalar, decltype(model_at)> nonlinear(model_at);
+      if (!(nonlinear.follow(to, course.model, course.response, dt, f0, f1) <= Scalar{1})) [[unlikely]] {
+        to = course.at;
+        return nonlinear.substeps(to, course.model, dt, f0, f1);
+      }
     } else {
-      correct(course, f0, f1);
-      look_around(course);
+      correct(course, to, f0, f1);
     }
+    return Status::ok;
   }
 
-  [[nodiscard]] Array acceleration(const Course& course, const Array& pushed) const noexcept {
-    return pushed + course.model.constant - course.model.beta * course.at.v - course.model.kappa * course.at.x;
+  /// @param f  (F_h + other forces) / m there, m/s^2
+  [[nodiscard]] static Array acceleration(const Model& model, const State& at, const Array& f) noexcept {
+    return f + model.constant - model.beta * at.v - model.kappa * at.x;
   }
 
  private:
@@ -134,10 +144,9 @@ class ToolInModel {
     }
   }
 
-  // The force beside its tangent at the start, taken as linear in time over the step.
-  void correct(Course& course, const Array& f0, const Array& f1) const noexcept {
-    const State from = course.at;
-    State& to = course.at;
+  // Of axes that feel each other the force beside the tangent goes as t, and is taken as linear.
+  void correct(const Course& course, State& to, const Array& f0, const Array& f1) const noexcept {
+    const State from = to;
     const Model& model = course.model;
     course.response.advance_lanes(to.x, to.v, f0 + model.constant, f1 + model.constant);
     for (int correction = 0; correction < 2; ++correction) {
