@@ -90,9 +90,12 @@ TEST_CASE("samples that come late, twice and in the wrong order do no harm") {
   CHECK(predictor->observe({state, 5ms, 4ms}) == Status::clock_backwards);
 }
 
-TEST_CASE("a curve predictor's start that is not finite is refused") {
+TEST_CASE("a curve predictor's start that is not finite or out of all reach is refused") {
   auto bad = settings();
   bad.start.x[0] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(CurvePredictor<>{bad}, "CurvePredictor: start: expected finite, got a motion that is not",
+                       std::invalid_argument);
+  bad.start.x[0] = 11;
+  CHECK_THROWS_WITH_AS(CurvePredictor<>{bad}, "CurvePredictor: start: expected within 10 m and 100 m/s, got 11",
                        std::invalid_argument);
 }

@@ -126,6 +126,11 @@ class TissueLaw {
     return elastic(s, p.x).force + damping(s, p.x) * p.v + memory_force(s, p.memory) + p.residual;
   }
 
+  /// Of the tool there under the operator's force F, m/s^2, with what is safe as in `step`.
+  [[nodiscard]] Scalar acceleration(const State& s, const Point& p, const Scalar& F) const noexcept {
+    return acceleration<true>(s, p.x, p.v, memory_force(s, p.memory) + p.residual, F);
+  }
+
   /// Over a step of h seconds in which the operator's force goes from F0 to F1, N: the classical Runge-Kutta method,
   /// the memory carried by the mean velocity; in parts where the damper alone would leave the method's region. Where
   /// `safe`, beyond the visited depths no slope is under the least one, and no damper above the most.

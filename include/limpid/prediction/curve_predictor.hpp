@@ -9,15 +9,18 @@
 #include <limpid/environment/tool.hpp>
 #include <limpid/estimation/tissue_learner.hpp>
 #include <limpid/prediction/predictor.hpp>
+#include <limpid/prediction/sample_intake.hpp>
 #include <limpid/signal/history.hpp>
 
 #include <cstddef>
-#include <vector>
 
 namespace limpid {
 
 /// Learns the tissue's whole force law, and replays it from the newest sample's state over the operator's force up to
 /// now. One axis. See TissueLearner.
+///
+/// A sample beyond 10 m, 100 m/s or 10 kN is refused as not finite; a law that leads beyond them is left for the newest
+/// sample, held, with the same word.
 ///
 /// The learner's arrays are large (hundreds of kilobytes): keep the predictor where it stays.
 /// @tparam Capacity  ticks remembered, a power of two: at least from the sample before the newest to now
@@ -36,9 +39,10 @@ class CurvePredictor {
   };
 
   /// @throws std::invalid_argument  where a field is refused
-  explicit CurvePredictor(const Settings& settings)
-      : mass_{settings.learner.mass}, learner_(settings.learner), motion_{settings.start} {
+  explicit CurvePredictor(const Settings& settings) : learner_(settings.learner), motion_{settings.start} {
     expect(is_finite(settings.start), "CurvePredictor: start", "finite", "a motion that is not");
+    expect(moderate(motion_.x[0], motion_.v[0], Scalar{0}), "CurvePredictor: start", "within 10 m and 100 m/s",
+           motion_.x[0]);
     point_.x = motion_.x[0];
     point_.v = motion_.v[0];
   }
@@ -51,36 +55,33 @@ class CurvePredictor {
     if (!is_finite(sample.value) || !moderate(sample.value.x[0], sample.value.v[0], sample.value.force[0])) {
       return Status::not_finite;
     }
-    if (sample.taken > sample.arrived) return Status::clock_backwards;
-    if (newest_.seen(sample.taken)) return Status::out_of_order;
-    observation_ = {sample.taken, sample.value.x[0], sample.value.v[0], sample.value.force[0]};
-    newest_.observe(sample.taken);
-    return Status::ok;
+    return intake_.observe(sample);
   }
 
   /// @param F_h  operator's force at `now`, N, linear since the last tick
   [[nodiscard]] Prediction<1, Scalar> advance(Time now, const Vector& F_h) noexcept {
-    const Status pushed = forces_.size() > 0 && now <= now_ ? Status::clock_backwards : forces_.push(now, F_h[0]);
-    if (pushed != Status::ok) return {motion_, pushed};
-    const Scalar h = forces_.size() > 1 ? in_seconds<Scalar>(elapsed(now, now_)) : Scalar{0};
-    if (learner_.started() && h > Scalar{0}) {
-      learner_.law().template step<true>(learner_.state(), point_, F_before_, F_h[0], h);
+    if (const Status refused = intake_.refusal(now, F_h); refused != Status::ok) return {motion_, refused};
+    Status status = intake_.begin(now);
+    forces_.append(now, F_h[0]);
+    if (intake_.fresh()) {
+      const auto& sample = intake_.held();
+      learner_.learn({intake_.taken(), sample.x[0], sample.v[0], sample.force[0]}, forces_);
+      point_ = learner_.newest();
+      status |= replay();
+    } else if (learner_.started()) {
+      step_to(forces_.size() - 1);
     }
-    now_ = now;
-    F_before_ = F_h[0];
-    Status status = take_over_sample();
     if (!moderate(point_.x, point_.v, Scalar{0})) {  // a law that leads nowhere: the newest sample, held
-      point_ = {observation_.x, observation_.v, Scalar{0}, {}};
+      point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}};
       status |= Status::not_finite;
     }
-    const Scalar a = learner_.started() ? (F_h[0] - learner_.law().force(learner_.state(), point_) -
-                                           learner_.law().settings().tool_damping * point_.v) /
-                                              mass_
-                                        : Scalar{0};
     motion_.x[0] = point_.x;
     motion_.v[0] = point_.v;
-    if (is_finite(a)) motion_.a[0] = a;
-    return {motion_, status | when(!newest_.any(), Status::no_sample)};
+    if (learner_.started()) {
+      const Scalar a = learner_.law().acceleration(learner_.state(), point_, F_h[0]);
+      if (is_finite(a)) motion_.a[0] = a;
+    }
+    return {motion_, status};
   }
 
  private:
@@ -89,38 +90,30 @@ class CurvePredictor {
     return abs(x) < Scalar(10) && abs(v) < Scalar(100) && abs(F) < Scalar(10000);
   }
 
-  Status take_over_sample() noexcept {
-    if (!newest_.pending()) return Status::ok;
-    if (const Status settled = newest_.settle(now_); settled != Status::ok) return settled;
-    learner_.learn(observation_, forces_);
-    point_ = learner_.newest();
-    return replay();
-  }
-
-  // From the newest sample to now.
+  // From the newest sample to now; from the first tick that is remembered, where it was taken before that.
   Status replay() noexcept {
-    Time t = learner_.taken();
-    const auto first = forces_.at(t);
-    Scalar F = first.value;
-    for (std::size_t i = forces_.first_not_before(t); i < forces_.size(); ++i) {
-      if (forces_.time(i) <= t) continue;
-      learner_.law().template step<true>(learner_.state(), point_, F, forces_.value(i),
-                                         in_seconds<Scalar>(elapsed(forces_.time(i), t)));
-      t = forces_.time(i);
-      F = forces_.value(i);
-    }
-    return first.status;
+    const Time taken = learner_.taken();
+    const auto [F, status] = forces_.at(taken);
+    const std::size_t i = forces_.first_not_before(taken);
+    if (status == Status::ok && forces_.time(i) != taken) step(F, forces_.value(i), elapsed(forces_.time(i), taken));
+    for (std::size_t k = i + 1; k < forces_.size(); ++k) step_to(k);
+    return status;
   }
 
-  Scalar mass_;
+  // Between two ticks that are remembered.
+  void step_to(std::size_t tick) noexcept {
+    step(forces_.value(tick - 1), forces_.value(tick), elapsed(forces_.time(tick), forces_.time(tick - 1)));
+  }
+
+  void step(const Scalar& F0, const Scalar& F1, Duration h) noexcept {
+    learner_.law().template step<true>(learner_.state(), point_, F0, F1, in_seconds<Scalar>(h));
+  }
+
   Learner learner_;
   History<Scalar, Capacity> forces_;
   typename Law::Point point_{};
   Motion<1, Scalar> motion_{};
-  AxisSample<Scalar> observation_{};
-  SampleStamps newest_;
-  Time now_{};
-  Scalar F_before_{0};
+  detail::SampleIntake<1, Scalar> intake_;
 };
 
 }  // namespace limpid

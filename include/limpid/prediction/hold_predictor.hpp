@@ -8,6 +8,7 @@
 #include <limpid/core/time.hpp>
 #include <limpid/environment/tool.hpp>
 #include <limpid/prediction/predictor.hpp>
+#include <limpid/prediction/sample_intake.hpp>
 
 namespace limpid {
 
@@ -33,36 +34,20 @@ class HoldPredictor {
 
   /// Takes in a sample that has arrived; it holds from the next `advance` on.
   /// @return  not_finite, clock_backwards (taken after it arrived), out_of_order: the sample was dropped
-  [[nodiscard]] Status observe(const ToolSample<Axes, Scalar>& sample) noexcept {
-    if (!is_finite(sample.value)) return Status::not_finite;
-    if (sample.taken > sample.arrived) return Status::clock_backwards;
-    if (newest_.seen(sample.taken)) return Status::out_of_order;
-    next_ = {sample.value.x, sample.value.v, sample.value.a};
-    newest_.observe(sample.taken);
-    return Status::ok;
-  }
+  [[nodiscard]] Status observe(const ToolSample<Axes, Scalar>& sample) noexcept { return intake_.observe(sample); }
 
   /// @param F_h  operator's force, N; has no influence
   /// @return     out_of_history: a sample taken after `now` was dropped
   [[nodiscard]] Prediction<Axes, Scalar> advance(Time now, const Vector& F_h) noexcept {
-    const bool late = started_ && now <= now_;
-    const bool finite = is_finite(F_h);
-    if (late || !finite) return {held_, when(late, Status::clock_backwards) | when(!finite, Status::not_finite)};
-    now_ = now;
-    started_ = true;
-    Status status = Status::ok;
-    if (newest_.pending()) {
-      status = newest_.settle(now);
-      if (status == Status::ok) held_ = next_;
-    }
-    return {held_, status | when(!newest_.any(), Status::no_sample)};
+    if (const Status refused = intake_.refusal(now, F_h); refused != Status::ok) return {held_, refused};
+    const Status status = intake_.begin(now);
+    if (intake_.fresh()) held_ = {intake_.held().x, intake_.held().v, intake_.held().a};
+    return {held_, status};
   }
 
  private:
-  Motion<Axes, Scalar> held_{}, next_{};  // returned last; of the sample observed since
-  SampleStamps newest_;
-  bool started_ = false;
-  Time now_{};
+  Motion<Axes, Scalar> held_{};  // returned last
+  detail::SampleIntake<Axes, Scalar> intake_;
 };
 
 }  // namespace limpid
