@@ -51,11 +51,11 @@ class ToolInModel {
   };
 
   template <typename ToolModel>
-  ToolInModel(const Env& environment, const ToolModel& tool)
+  ToolInModel(const Env& environment, const ToolModel& tool_model)
       : environment_{environment},
-        per_mass_{Scalar{1} / tool.mass},
-        own_{Array::Constant(tool.stiffness * per_mass_), Array::Constant(tool.damping * per_mass_),
-             to_lanes<axes>(Vector(tool.anchor * (tool.stiffness * per_mass_)))} {
+        per_mass_{Scalar{1} / tool_model.mass},
+        own_{Array::Constant(tool_model.stiffness * per_mass_), Array::Constant(tool_model.damping * per_mass_),
+             to_lanes<axes>(Vector(tool_model.anchor * (tool_model.stiffness * per_mass_)))} {
     if constexpr (exact) probe_parameters();
   }
 
