@@ -62,6 +62,7 @@
 #include <limpid/estimation/projection_rls.hpp>
 #include <limpid/estimation/scale_change.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
+#include <limpid/estimation/tissue_adjoint.hpp>
 #include <limpid/estimation/tissue_belief.hpp>
 #include <limpid/estimation/tissue_law.hpp>
 #include <limpid/estimation/tissue_learner.hpp>

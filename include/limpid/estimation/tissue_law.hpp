@@ -115,6 +115,14 @@ class TissueLaw {
     return s[damper(first)] * (Scalar{1} - second) + s[damper(first + 1)] * second;
   }
 
+  /// Of `damping` over depth, N s/m^2; zero beyond the dampers.
+  [[nodiscard]] Scalar damping_slope(const State& s, const Scalar& x) const noexcept {
+    const Scalar at = x / settings_.damper_spacing;
+    if (!(at > Scalar(dampers_.low) && at < Scalar(dampers_.high))) return Scalar{0};
+    const int first = damper_weights(x).first;
+    return (s[damper(first + 1)] - s[damper(first)]) / settings_.damper_spacing;
+  }
+
   [[nodiscard]] Scalar memory_force(const State& s, const Memory& memory) const noexcept {
     Scalar force = s[friction] * memory.bristle;
     for (int i = 0; i < Branches; ++i) force += s[first_branch + i] * memory.chi[std::size_t(i)];

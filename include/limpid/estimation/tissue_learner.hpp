@@ -149,8 +149,9 @@ class TissueLearner {
   // F_e alone, at the sample's x and v.
   void take_force(const AxisSample<Scalar>& z, const Scalar& variance) noexcept {
     Evaluation& e = here_;
-    e.H.col(2).setZero();
-    Replay::add_row(law(), e.H, 2, {z.x, z.v, Scalar{0}, memory_}, Scalar{1});
+    e.H.setZero();
+    Replay::Adjoint::add(law(), e.H, {z.x, z.v, Scalar{0}, memory_},
+                         typename Replay::Adjoint::Three(Scalar{0}, Scalar{0}, Scalar{1}));
     e.H(Law::residual, 2) = Scalar{1};
     const State gain = belief_.P * e.H.col(2);
     const Scalar whole = e.H.col(2).dot(gain) + variance;

@@ -5,6 +5,7 @@
 #include <limpid/core/real.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
+#include <limpid/estimation/tissue_adjoint.hpp>
 #include <limpid/signal/history.hpp>
 
 #include <Eigen/Core>
@@ -30,14 +31,15 @@ struct AxisSample {
 /// parameter.
 /// @tparam Law       TissueLaw
 /// @tparam Capacity  steps at most
-/// @realtime         no allocation, no throw for built-in scalars; some 200 flops a step
+/// @realtime         no allocation, no throw for built-in scalars; some 500 flops a step
 template <typename Law, std::size_t Capacity>
 class TissueReplay {
  public:
   using Scalar = typename Law::Scalar;
   using State = typename Law::State;
   using Point = typename Law::Point;
-  using Rows = Eigen::Matrix<Scalar, Law::states, 3>;  // of the measurements, transposed: a column each
+  using Adjoint = TissueAdjoint<Law>;
+  using Rows = typename Adjoint::Rows;
   using Vector = Eigen::Matrix<Scalar, 3, 1>;
 
   struct Evaluation {
@@ -99,31 +101,12 @@ class TissueReplay {
 
   /// What the end of the path that was kept has of s.
   /// @return  false where that has no bounds
-  [[nodiscard]] bool linearise(const Law& law, const State& s, const AxisSample<Scalar>& z,
-                               Evaluation& e) const noexcept {
+  [[nodiscard]] bool linearise(const Law& law, const State& s, const AxisSample<Scalar>& z, Evaluation& e) noexcept {
     const Point& p = e.end = path_[step_count_];
-    sensitivities(law, s, e);
     const Point at{z.x, z.v, p.residual, p.memory};
-    add_row(law, e.H, 2, at, Scalar{1});
-    e.H(Law::residual, 2) = e.residual_left;
+    differentiate(law, s, at, e);
     e.y = {z.x - p.x, z.v - p.v, z.force - law.force(s, at)};
     return (e.H.array().abs() < Scalar(1'000'000)).all() && is_finite(e.y);
-  }
-
-  /// Adds what the force at a point has of each parameter, times `weight`, to one column of the rows.
-  static void add_row(const Law& law, Rows& H, int column, const Point& p, const Scalar& weight) noexcept {
-    const auto w = law.knots().at(p.x);
-    for (std::size_t k = 0; k < 4; ++k)
-      H(Law::coefficient(w.first + static_cast<int>(k)), column) += weight * w.value[k];
-    const auto [first, second] = law.damper_weights(p.x);
-    H(Law::damper(first), column) += weight * p.v * (Scalar{1} - second);
-    H(Law::damper(first + 1), column) += weight * p.v * second;
-    if (law.settings().relaxation) {
-      for (int i = 0; i < Law::branches; ++i) {
-        H(Law::first_branch + i, column) += weight * p.memory.chi[std::size_t(i)];
-      }
-    }
-    if (law.settings().dry_friction) H(Law::friction, column) += weight * p.memory.bristle;
   }
 
  private:
@@ -139,52 +122,21 @@ class TissueReplay {
     residual_left_ *= fade;
   }
 
-  // dx/ds and dv/ds at the end, backwards along the path: the adjoint of the step's trapezoidal linearisation.
-  void sensitivities(const Law& law, const State& s, Evaluation& e) const noexcept {
+  // d(x, v, F_e)/ds, backwards along the path, and the force's own at the sample.
+  void differentiate(const Law& law, const State& s, const Point& at, Evaluation& e) noexcept {
     e.H.setZero();
-    const Scalar per_mass = Scalar{1} / law.settings().mass, half = Scalar{1} / Scalar{2};
-    Eigen::Matrix<Scalar, 2, 2> L = Eigen::Matrix<Scalar, 2, 2>::Identity();
-    Scalar rx{0}, rv{0};
-    e.x_gain = e.v_gain = Scalar{0};
-    e.residual_left = residual_left_;
+    adjoint_.begin(law, s);
     for (std::size_t i = step_count_; i-- > 0;) {
-      const Scalar& h = steps_[i].h;
-      const Point mid = between(path_[i], path_[i + 1]);
-      const Scalar k = law.elastic(s, mid.x).slope * per_mass;
-      const Scalar b = (law.damping(s, mid.x) + law.settings().tool_damping) * per_mass;
-      // (I - A h/2)^-1 with A = (0 1; -k -b)
-      const Scalar q = h * half, determinant = Scalar{1} + q * b + q * q * k, per = Scalar{1} / determinant;
-      Eigen::Matrix<Scalar, 2, 2> inverse;
-      inverse << (Scalar{1} + q * b) * per, q * per, -q * k * per, per;
-      const Eigen::Matrix<Scalar, 2, 1> gain = L * inverse.col(1) * (-h * per_mass);
-      add_row(law, e.H, 0, mid, gain[0]);
-      add_row(law, e.H, 1, mid, gain[1]);
-      const Scalar& fade = steps_[i].fade;
-      const Scalar mean_fade = half * (Scalar{1} + fade);
-      rx = gain[0] * mean_fade + rx * fade;
-      rv = gain[1] * mean_fade + rv * fade;
-      e.x_gain += gain[0];
-      e.v_gain += gain[1];
-      const Eigen::Matrix<Scalar, 2, 2> transition =
-          Scalar{2} * inverse - Eigen::Matrix<Scalar, 2, 2>::Identity();  // (I - A q)^-1 (I + A q)
-      L = (L * transition).eval();
+      adjoint_.back(law, s, path_[i], path_[i + 1], steps_[i].h, steps_[i].fade, e.H);
     }
-    e.H.template block<2, 1>(0, 0) = L.row(0).transpose();
-    e.H.template block<2, 1>(0, 1) = L.row(1).transpose();
-    e.H(Law::residual, 0) = rx;
-    e.H(Law::residual, 1) = rv;
+    adjoint_.finish(law, path_[0], e.H);
+    Adjoint::add(law, e.H, at, typename Adjoint::Three(Scalar{0}, Scalar{0}, Scalar{1}));
+    e.x_gain = adjoint_.of_constant_force()[0];
+    e.v_gain = adjoint_.of_constant_force()[1];
+    e.residual_left = residual_left_;
   }
 
-  static Point between(const Point& a, const Point& b) noexcept {
-    const Scalar half = Scalar{1} / Scalar{2};
-    Point mid{half * (a.x + b.x), half * (a.v + b.v), half * (a.residual + b.residual), {}};
-    for (std::size_t i = 0; i < mid.memory.chi.size(); ++i) {
-      mid.memory.chi[i] = half * (a.memory.chi[i] + b.memory.chi[i]);
-    }
-    mid.memory.bristle = half * (a.memory.bristle + b.memory.bristle);
-    return mid;
-  }
-
+  Adjoint adjoint_{};
   std::array<Step, Capacity> steps_{};
   std::array<Point, Capacity + 1> path_{};
   std::size_t step_count_ = 0;
