@@ -17,6 +17,12 @@ TEST_CASE("before anything is seen the variance is the mean over the levels") {
   CHECK(noise.variance() == doctest::Approx(5.0));
 }
 
+TEST_CASE("levels that are doubted weigh less at first, each by the same factor") {
+  const NoiseLevels<3> noise({1.0, 2.0, 3.0}, 0.98, 1.5);
+  const double d = std::exp(-1.5);
+  CHECK(noise.variance() == doctest::Approx((1 + 4 * d + 9 * d * d) / (1 + d + d * d)).epsilon(1e-13));
+}
+
 TEST_CASE("one innovation weighs the levels by their densities") {
   NoiseLevels<2> noise({1.0, 3.0}, 1.0);
   noise.observe(0.5, 0.0);

@@ -12,8 +12,9 @@
 namespace limpid {
 
 /// How noisy a measurement is, learnt from its innovations: the posterior over a few levels of standard deviation, each
-/// as probable as the next at first. An innovation e of a measurement whose prediction has variance s has the density
-/// of N(0, s + level^2) at each level; older ones are forgotten. The variance to use is the posterior's mean.
+/// less probable than the one below it at first. An innovation e of a measurement whose prediction has variance s has
+/// the density of N(0, s + level^2) at each level; older ones are forgotten. The variance to use is the posterior's
+/// mean.
 /// @tparam Levels  how many
 /// @realtime       no allocation, no throw for built-in scalars; two logarithms or exponentials a level
 template <std::size_t Levels, Real Scalar = double>
@@ -21,8 +22,14 @@ class NoiseLevels {
  public:
   /// @param deviations  standard deviations, > 0, in the measurement's unit
   /// @param keep        of the log posterior from sample to sample, 0 to 1
-  NoiseLevels(const std::array<Scalar, Levels>& deviations, const Scalar& keep) noexcept : keep_{keep} {
-    for (std::size_t i = 0; i < Levels; ++i) squares_[i] = deviations[i] * deviations[i];
+  /// @param doubt       log of how much less probable each level is than the one before it, before anything is seen
+  NoiseLevels(const std::array<Scalar, Levels>& deviations, const Scalar& keep,
+              const Scalar& doubt = Scalar{0}) noexcept
+      : keep_{keep} {
+    for (std::size_t i = 0; i < Levels; ++i) {
+      squares_[i] = deviations[i] * deviations[i];
+      log_[i] = -doubt * static_cast<Scalar>(i);
+    }
     average();
   }
 
