@@ -67,6 +67,7 @@
 #include <limpid/estimation/tissue_law.hpp>
 #include <limpid/estimation/tissue_learner.hpp>
 #include <limpid/estimation/tissue_learner_settings.hpp>
+#include <limpid/estimation/tissue_prior.hpp>
 #include <limpid/estimation/tissue_replay.hpp>
 #include <limpid/estimation/ud_factors.hpp>
 

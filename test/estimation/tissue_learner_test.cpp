@@ -56,6 +56,37 @@ TEST_CASE("a linear tissue's stiffness and damping are learnt from four seconds 
   CHECK(learner->law().damping(learner->state(), 0.002) == doctest::Approx(30).epsilon(1e-3));
 }
 
+TEST_CASE("a tissue far softer than was believed is learnt from samples that are far apart") {
+  using Env = KelvinVoigt<1>;
+  const auto learner = std::make_unique<Learner>(settings());
+  teach(*learner, VirtualTool<Env>(plant(Env{}, {200, 30})), 8s, 200ms);
+  // two hundredths: forty samples, four of them in one press, of a law with five branches that are not there
+  for (const double x : {0.002, 0.007, 0.012}) {
+    CHECK(learner->law().elastic(learner->state(), x).slope == doctest::Approx(200).epsilon(0.02));
+  }
+}
+
+TEST_CASE("dry friction is learnt beside stiffness and damping") {
+  Learner::Settings sticky = settings();
+  sticky.dry_friction = true;
+  const auto learner = std::make_unique<Learner>(sticky);
+  History<double> forces;
+  double x = 0, v = 0, z = 0;  // a tool of 0.1 kg on 800 N/m, 30 N s/m and 0.1 N of friction over 3 um
+  for (int tick = 0; tick <= 8000; ++tick) {
+    const Time now = tick * 1ms;
+    (void)forces.push(now, press(now));
+    if (tick % 32 == 0) learner->learn({now, x, v, 800 * x + 30 * v + 0.1 * z}, forces);
+    for (int part = 0; part < 100; ++part) {
+      const double F = press(now) + (press(now + 1ms) - press(now)) * part / 100, h = 1e-5;
+      v += h * (F - 800 * x - 30.1 * v - 0.1 * z) / 0.1;
+      x += h * v;
+      z = presliding_after(z, v, h, 3e-6);
+    }
+  }
+  CHECK(learner->state()[Law::friction] == doctest::Approx(0.1).epsilon(0.1));  // hardly told from short branches
+  CHECK(learner->law().elastic(learner->state(), 0.002).slope == doctest::Approx(800).epsilon(0.02));
+}
+
 TEST_CASE("the force of a tissue that stiffens is learnt over the depths that were visited") {
   using Env = SmoothBilinear<1>;
   const Env env({.depth = 0.0028, .sharpness = 20});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limpid/core/cholesky_3.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/environment/spline_knots.hpp>
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <utility>
 
 namespace limpid {
@@ -64,43 +66,16 @@ class TissueBelief {
     while (dampers.low > dl && dampers.high - dampers.low + 1 < Law::most_dampers) grow_damper(dampers.low, -1);
   }
 
+  /// What is learnt from three measurements at once, but not yet taken out of P: P less P H S^-1 H' P.
+  struct Conditioned {
+    const Rows &H, &PH;
+    const Cholesky3<Scalar>& S;
+  };
+
   /// Takes slopes, dampings, friction and branches of x to the nearest physical ones in P's metric, x - s = P u.
-  void keep_physical(State& x, State& u) const noexcept {
-    const auto move = [&](int place, const Scalar& by) {
-      const Scalar& variance = P(place, place);
-      if (!(variance > Scalar(1) / Scalar(1'000'000'000'000))) return;
-      x += P.col(place) * (by / variance);
-      u[place] += by / variance;
-    };
-    const Scalar per = Scalar{1} / law.knots().spacing();
-    for (int pass = 0; pass < 3; ++pass) {
-      bool any = false;
-      for (int j = law.knots().low(); j < law.knots().high(); ++j) {
-        const int a = Law::coefficient(j), b = Law::coefficient(j + 1);
-        const Scalar slope = (x[b] - x[a]) * per;
-        const Scalar wanted = std::clamp(slope, Scalar{0}, settings_.most_slope);
-        if (slope >= Scalar{-1} && slope <= settings_.most_slope + Scalar{1}) continue;
-        const Scalar variance = (P(b, b) - Scalar{2} * P(a, b) + P(a, a)) * per * per;
-        if (!(variance > Scalar(1) / Scalar(1'000'000'000'000))) continue;
-        const Scalar l = (wanted - slope) / variance * per;
-        x += (P.col(b) - P.col(a)) * l;
-        u[b] += l;
-        u[a] -= l;
-        any = true;
-      }
-      for (int i = 0; i < Law::branches; ++i) {
-        if (x[Law::first_branch + i] < Scalar{0}) move(Law::first_branch + i, -x[Law::first_branch + i]);
-      }
-      if (x[Law::friction] < Scalar{0}) move(Law::friction, -x[Law::friction]);
-      for (int j = law.dampers().low; j <= law.dampers().high; ++j) {
-        const Scalar b = x[Law::damper(j)], wanted = std::clamp(b, Scalar{0}, settings_.most_damping);
-        if (b == wanted) continue;
-        move(Law::damper(j), wanted - b);
-        any = true;
-      }
-      if (!any) break;
-    }
-  }
+  void keep_physical(State& x, State& u) const noexcept { keep_physical(x, u, nullptr); }
+  /// The same in the metric of the conditioned P: what the measurements say of x stays.
+  void keep_physical(State& x, State& u, const Conditioned& to) const noexcept { keep_physical(x, u, &to); }
 
   /// P + factor v v'. Of the same products in either triangle: P stays symmetric to the last bit.
   void add_rank_one(const State& v, const Scalar& factor) noexcept {
@@ -117,6 +92,58 @@ class TissueBelief {
   }
 
  private:
+  // A number that is bounded: the entry at `place`, less that at `from`, where there is one.
+  struct Bounded {
+    int place, from;
+    [[nodiscard]] Scalar of(const State& x) const noexcept { return from < 0 ? x[place] : x[place] - x[from]; }
+  };
+
+  void keep_physical(State& x, State& u, const Conditioned* to) const noexcept {
+    const Scalar &h = law.knots().spacing(), most_rise = settings_.most_slope * h;
+    for (int pass = 0; pass < 3; ++pass) {
+      bool any = false;
+      for (int j = law.knots().low(); j < law.knots().high(); ++j) {
+        any |= keep_within({Law::coefficient(j + 1), Law::coefficient(j)}, Scalar{0}, most_rise, h, x, u, to);
+      }
+      for (int i = 0; i < Law::branches; ++i) {
+        (void)keep_within({Law::first_branch + i, -1}, Scalar{0}, settings_.most_slope, Scalar{0}, x, u, to);
+      }
+      (void)keep_within({Law::friction, -1}, Scalar{0}, settings_.most_slope, Scalar{0}, x, u, to);
+      for (int j = law.dampers().low; j <= law.dampers().high; ++j) {
+        any |= keep_within({Law::damper(j), -1}, Scalar{0}, settings_.most_damping, Scalar{0}, x, u, to);
+      }
+      if (!any) break;
+    }
+  }
+
+  // Whether x had to be moved; up to `loose` beyond a bound it is let be.
+  [[nodiscard]] bool keep_within(const Bounded& number, const Scalar& least, const Scalar& most, const Scalar& loose,
+                                 State& x, State& u, const Conditioned* to) const noexcept {
+    const Scalar value = number.of(x);
+    if (value >= least - loose && value <= most + loose) return false;
+    State direction = P.col(number.place);
+    if (number.from >= 0) direction -= P.col(number.from);
+    Eigen::Matrix<Scalar, 3, 1> known = Eigen::Matrix<Scalar, 3, 1>::Zero();
+    const Scalar before = number.of(direction);
+    if (to != nullptr) {
+      const auto row = [&](int i) { return Eigen::Matrix<Scalar, 3, 1>(to->PH.row(i).transpose()); };
+      known = to->S.solve(number.from < 0 ? row(number.place) : row(number.place) - row(number.from));
+      direction -= to->PH * known;
+    }
+    const Scalar variance = number.of(direction), nothing(Scalar(1) / Scalar(1'000'000'000'000));
+    if (!(variance > nothing * h_squared(number)) || !(variance > before * nothing)) return false;
+    const Scalar by = (std::clamp(value, least, most) - value) / variance;
+    x += direction * by;
+    u[number.place] += by;
+    if (number.from >= 0) u[number.from] -= by;
+    if (to != nullptr) u -= to->H * (known * by);
+    return true;
+  }
+  // Variances of slopes are compared as such.
+  [[nodiscard]] Scalar h_squared(const Bounded& number) const noexcept {
+    return number.from < 0 ? Scalar{1} : law.knots().spacing() * law.knots().spacing();
+  }
+
   // A parameter that is a sum of others, and a variance of its own.
   void derive(int place, const Scalar& a, int first, const Scalar& b, int second, const Scalar& variance) noexcept {
     s[place] = a * s[first] + b * s[second];
@@ -156,9 +183,9 @@ class TissueBelief {
     };
     const auto add_straight = [&](int J, const Scalar& weight, Weights& to) {
       const int inside = std::clamp(J, low, high), beside = J < low ? low + 1 : high - 1;
-      if (J == inside) return add_value(J, weight, to);
-      add_value(inside, Scalar(2) * weight, to);
-      add_value(beside, -weight, to);
+      const auto beyond = static_cast<Scalar>(std::abs(J - inside));
+      add_value(inside, (Scalar{1} + beyond) * weight, to);
+      if (J != inside) add_value(beside, -beyond * weight, to);
     };
     for (int j = fine.low(); j <= fine.high(); ++j) order_[std::size_t(j - fine.low())] = Law::coefficient(j);
     for (int i = 0; i < count; ++i) {

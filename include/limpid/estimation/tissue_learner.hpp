@@ -9,6 +9,7 @@
 #include <limpid/estimation/tissue_belief.hpp>
 #include <limpid/estimation/tissue_law.hpp>
 #include <limpid/estimation/tissue_learner_settings.hpp>
+#include <limpid/estimation/tissue_prior.hpp>
 #include <limpid/estimation/tissue_replay.hpp>
 #include <limpid/signal/history.hpp>
 
@@ -30,13 +31,14 @@ namespace limpid {
 ///
 ///     (s - s0)' P^-1 (s - s0) + (z - h(s))' W^-1 (z - h(s)),
 ///
-/// halved until it falls; slopes and dampings stay physical by the nearest point in P's metric. How noisy the signals
+/// damped where the misfit is large, halved until it falls; slopes and dampings stay physical by the nearest point in
+/// the metric of what is still open. How noisy the signals
 /// are is learnt, and whether the tissue has changed as a whole. See TissueLaw for the law.
 /// @tparam Law       TissueLaw
 /// @tparam Capacity  ticks between two samples at most; where there are more, learning starts again from the sample
 /// @realtime         no allocation, no throw for built-in scalars. All at the sample: for each iteration a replay of
 /// some
-///                   300 flops a tick and, where the interval spans the whole range, 6 states^2; 6 states^2 once
+///                   700 flops a tick and, where the interval spans the whole range, 6 states^2; 6 states^2 once
 template <typename Law = TissueLaw<>, std::size_t Capacity = 512>
 class TissueLearner {
  public:
@@ -98,30 +100,7 @@ class TissueLearner {
     belief_.P.setZero();
     memory_ = {};
     place(z);
-    const auto square = [](const Scalar& value) { return value * value; };
-    if (settings_.relaxation) {
-      for (int i = 0; i < Law::branches; ++i) {
-        belief_.P(Law::first_branch + i, Law::first_branch + i) = square(settings_.branch_deviation);
-      }
-    }
-    if (settings_.dry_friction) belief_.P(Law::friction, Law::friction) = square(settings_.friction_deviation);
-    for (int j = law().dampers().low; j <= law().dampers().high; ++j) {
-      belief_.s[Law::damper(j)] = settings_.damping;
-      for (int i = law().dampers().low; i <= law().dampers().high; ++i) {
-        belief_.P(Law::damper(i), Law::damper(j)) =
-            square(settings_.damping_deviation) + (i == j ? square(settings_.damping_change) / Scalar(100) : Scalar{0});
-      }
-    }
-    const auto& knots = law().knots();
-    const auto away = [&](int j) { return Scalar(j) * knots.spacing() - z.x; };
-    for (int j = knots.low(); j <= knots.high(); ++j) {
-      belief_.s[Law::coefficient(j)] = settings_.slope * away(j);
-      for (int i = knots.low(); i <= knots.high(); ++i) {
-        belief_.P(Law::coefficient(i), Law::coefficient(j)) =
-            Scalar{1} + away(i) * away(j) * square(settings_.slope_deviation) +
-            (i == j ? belief_.bend_variance() / Scalar(10) : Scalar{0});
-      }
-    }
+    set_prior(belief_, settings_, z.x);
     started_ = true;
     take_force(z, force_noise_.variance());
   }
@@ -205,35 +184,53 @@ class TissueLearner {
 
   // Gauss-Newton from the prior belief_.s to si_, in here_; u with si = s + P u gives the prior's cost without P^-1.
   void iterate(const AxisSample<Scalar>& z) noexcept {
-    const Cholesky3<Scalar> weight(W_);
-    const auto cost = [&](const State& u, const State& at, const Scalar3& y) {
-      return u.dot(at - belief_.s) + weight.whitened(y).squaredNorm();
-    };
     si_ = belief_.s;
     u_.setZero();
-    Scalar now = cost(u_, si_, here_.y);
     for (int i = 0; i < settings_.iterations; ++i) {
       if (i > 0) belief_.project_rows(here_.H, PH_);
-      const Matrix3 S = here_.H.transpose() * PH_ + W_;
-      const Scalar3 g = Cholesky3<Scalar>(S).solve(here_.y - here_.H.transpose() * (belief_.s - si_));
+      const Matrix3 W = damped();
+      const Cholesky3<Scalar> weight(W), factor(here_.H.transpose() * PH_ + W);
+      const Scalar3 g = factor.solve(here_.y - here_.H.transpose() * (belief_.s - si_));
       State u = here_.H * g, target = belief_.s + PH_ * g;
-      belief_.keep_physical(target, u);
-      const Scalar before = now;
-      bool taken = false;
-      Scalar part{1};
-      for (int half = 0; half < 6 && !taken; ++half, part /= Scalar{2}) {
-        const State trial_u = u_ + part * (u - u_), trial = si_ + part * (target - si_);
-        if (!replay_.walk(law(), trial, memory_, z) || !replay_.linearise(law(), trial, z, there_)) continue;
-        const Scalar then = cost(trial_u, trial, there_.y);
-        if (!(then <= before)) continue;
-        std::swap(here_, there_);
-        si_ = trial;
-        u_ = trial_u;
-        now = then;
-        taken = true;
-      }
-      if (!taken || before - now < before / Scalar(10000) + Scalar(1) / Scalar(1'000'000)) break;
+      belief_.keep_physical(target, u, {here_.H, PH_, factor});
+      const Scalar before = cost(weight, u_, si_, here_.y);
+      Scalar now = before;
+      if (!approach(z, weight, u, target, now)) break;
+      if (before - now < before / Scalar(10000) + Scalar(1) / Scalar(1'000'000)) break;
     }
+  }
+
+  // W, and where the misfit is far beyond it half the misfit: a step that asks for no more than that of a law that is
+  // far off does not leave the range in which it is nearly linear.
+  [[nodiscard]] Matrix3 damped() const noexcept {
+    Matrix3 W = W_;
+    for (int k = 0; k < 3; ++k) {
+      W(k, k) += std::max(here_.y[k] * here_.y[k] - Scalar(9) * W_(k, k), Scalar{0}) / Scalar(4);
+    }
+    return W;
+  }
+
+  [[nodiscard]] Scalar cost(const Cholesky3<Scalar>& weight, const State& u, const State& at,
+                            const Scalar3& y) const noexcept {
+    return u.dot(at - belief_.s) + weight.whitened(y).squaredNorm();
+  }
+
+  // From si_ toward the target, halved until the cost falls.
+  [[nodiscard]] bool approach(const AxisSample<Scalar>& z, const Cholesky3<Scalar>& weight, const State& u,
+                              const State& target, Scalar& now) noexcept {
+    Scalar part{1};
+    for (int half = 0; half < 6; ++half, part /= Scalar{2}) {
+      const State trial_u = u_ + part * (u - u_), trial = si_ + part * (target - si_);
+      if (!replay_.walk(law(), trial, memory_, z) || !replay_.linearise(law(), trial, z, there_)) continue;
+      const Scalar then = cost(weight, trial_u, trial, there_.y);
+      if (!(then <= now)) continue;
+      std::swap(here_, there_);
+      si_ = trial;
+      u_ = trial_u;
+      now = then;
+      return true;
+    }
+    return false;
   }
 
   // P less what the measurements tell, about si_.
@@ -294,9 +291,11 @@ class TissueLearner {
   Time taken_{};
   bool started_ = false;
   NoiseLevels<6, Scalar> x_noise_{
-      {Scalar(1e-8), Scalar(1e-7), Scalar(5e-7), Scalar(1.5e-6), Scalar(3e-6), Scalar(1e-5)}, Scalar(98) / Scalar(100)};
-  NoiseLevels<5, Scalar> v_noise_{{Scalar(1e-6), Scalar(1e-5), Scalar(3e-5), Scalar(1e-4), Scalar(3e-4)},
-                                  Scalar(98) / Scalar(100)};
+      {Scalar(1e-8), Scalar(1e-7), Scalar(5e-7), Scalar(1.5e-6), Scalar(3e-6), Scalar(1e-5)},
+      Scalar(98) / Scalar(100),
+      Scalar{1}};
+  NoiseLevels<5, Scalar> v_noise_{
+      {Scalar(1e-6), Scalar(1e-5), Scalar(3e-5), Scalar(1e-4), Scalar(3e-4)}, Scalar(98) / Scalar(100), Scalar{1}};
   NoiseLevels<6, Scalar> force_noise_{
       {Scalar(1e-4), Scalar(1e-3), Scalar(3e-3), Scalar(1e-2), Scalar(3e-2), Scalar(1e-1)}, Scalar(98) / Scalar(100)};
   ScaleChange<Scalar> scale_{typename ScaleChange<Scalar>::Settings{}};

@@ -17,14 +17,14 @@ struct TissueLearnerSettings {
   Scalar knot_spacing = Scalar(5) / 100000;          ///< at first; doubled where the range needs it, m
   Scalar damper_spacing = Scalar(1) / 1000;          ///< m
   Scalar slope{1000}, slope_deviation{700};          ///< of the tissue before anything is seen, N/m
-  Scalar curvature{60000};                           ///< deviation of the slope's change over depth, (N/m)/sqrt(m)
+  Scalar curvature{30000};                           ///< deviation of the slope's change over depth, (N/m)/sqrt(m)
   Scalar damping{25}, damping_deviation{12};         ///< N s/m
-  Scalar damping_change{10};                         ///< deviation from one damper to the next, N s/m
+  Scalar damping_change{3};                          ///< deviation from one damper to the next, N s/m
   bool relaxation = true, dry_friction = false;      ///< whether they are learnt
   Scalar branch_deviation{50};                       ///< of each K_i, N/m
-  Scalar friction_deviation = Scalar(5) / 100;       ///< of F_c, N
+  Scalar friction_deviation = Scalar(1) / 10;        ///< of F_c, N
   typename Law::Branch::Lags lags = default_lags();  ///< of the branches, s
-  Scalar presliding = Scalar(1) / 100000;            ///< m
+  Scalar presliding = Scalar(3) / 1000000;           ///< m
   Scalar residual_time = Scalar(3) / 10;             ///< s
   Scalar residual_deviation = Scalar(1) / 10000;     ///< N
   Scalar process_deviation = Scalar(1) / 10000;      ///< of a force that the law lacks over an interval, N
