@@ -91,6 +91,7 @@
 #include <limpid/prediction/sample_intake.hpp>
 #include <limpid/prediction/smith_predictor.hpp>
 #include <limpid/prediction/stable_recursion.hpp>
+#include <limpid/prediction/tissue_predictor.hpp>
 #include <limpid/prediction/tool_in_model.hpp>
 
 #include <limpid/design/adaptation_rate.hpp>
