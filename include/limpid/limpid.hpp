@@ -35,9 +35,11 @@
 
 #include <limpid/environment/coupled.hpp>
 #include <limpid/environment/environment.hpp>
+#include <limpid/environment/exponential.hpp>
 #include <limpid/environment/fixed.hpp>
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/layered.hpp>
 #include <limpid/environment/maxwell_branches.hpp>
 #include <limpid/environment/operator_hand.hpp>
 #include <limpid/environment/presliding.hpp>

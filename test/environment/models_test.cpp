@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/environment/coupled.hpp>
+#include <limpid/environment/exponential.hpp>
 #include <limpid/environment/fixed.hpp>
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/layered.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/tangent_model.hpp>
 #include <limpid/environment/unilateral.hpp>
@@ -13,9 +15,11 @@
 #include <limits>
 
 using limpid::Coupled;
+using limpid::Exponential;
 using limpid::Fixed;
 using limpid::HuntCrossley;
 using limpid::KelvinVoigt;
+using limpid::Layered;
 using limpid::SmoothBilinear;
 using limpid::Tangent;
 using limpid::Unilateral;
@@ -104,6 +108,43 @@ TEST_CASE("Hunt-Crossley's tangent at the touch is its damping alone, and finite
   CHECK(linear.stiffness[0] == 1500);
 }
 
+TEST_CASE("the exponential force is A (exp(r x) - 1), to roundings also near the surface") {
+  const Exponential<1> e({.growth = 600});
+  const Eigen::Array<double, 1, 2> theta{0.5, 30};
+  const double deep = 0.5 * (std::exp(1.2) - 1) + 30 * 0.25;
+  CHECK(std::abs(e.force(theta, One(0.002), One(0.25))[0] - deep) <= 8 * epsilon * deep);
+  // A r x (1 + r x / 2 + ...): the next term is (r x)^2 / 6 = 6e-18 of it
+  const double shallow = 0.5 * 600e-11 * (1 + 300e-11);
+  CHECK(std::abs(e.force(theta, One(1e-11), One(0))[0] - shallow) <= 8 * epsilon * shallow);
+  CHECK(e.tangent(theta, One(0), One(1)).stiffness[0] == 300);
+}
+
+TEST_CASE("from r x = 64 on the exponential force goes on along its tangent") {
+  const Exponential<1> e({.growth = 1024});
+  const Eigen::Array<double, 1, 2> theta{2, 0};
+  const double at = 64.0 / 1024, slope = 2 * 1024 * std::exp(64.0);
+  const double from = e.force(theta, One(at), One(0))[0];
+  CHECK(std::abs(from - 2 * std::exp(64.0)) <= 8 * epsilon * from);
+  const double beyond = e.force(theta, One(4 * at), One(0))[0];
+  CHECK(std::abs(beyond - from - slope * 3 * at) <= 8 * epsilon * beyond);
+  CHECK(std::abs(e.tangent(theta, One(4 * at), One(0)).stiffness[0] - slope) <= 8 * epsilon * slope);
+}
+
+TEST_CASE("each layer adds its own stiffness over its own part of the depth") {
+  const Layered<3> e({.depths = {0.25, 0.5}});
+  const Eigen::Array<double, 1, 4> theta{400, 1500, 800, 32};
+  const auto force = [&](double x) { return e.force(theta, One(x), One(0.125))[0]; };
+  CHECK(force(-1) == -400 + 4);  // all exact in binary
+  CHECK(force(0.125) == 50 + 4);
+  CHECK(force(0.25) == 100 + 4);
+  CHECK(force(0.375) == 100 + 187.5 + 4);
+  CHECK(force(1) == 100 + 375 + 400 + 4);
+  CHECK(e.tangent(theta, One(0.2), One(0)).stiffness[0] == 400);
+  CHECK(e.tangent(theta, One(0.25), One(0)).stiffness[0] == 1500);  // of the layer below
+  CHECK(e.tangent(theta, One(1), One(0)).stiffness[0] == 800);
+  CHECK(e.tangent(theta, One(1), One(0)).damping[0] == 32);
+}
+
 TEST_CASE("fixed parameters leave the force as it is and take their columns from the regressor") {
   const Fixed<Tangent<2>, 1> e({.known = Eigen::Array2d{30, 20}});
   const Eigen::Array2d x{0.5, 0.25}, v{0.125, -1};
@@ -150,6 +191,10 @@ TEST_CASE("settings that no environment can have are refused") {
                        "SmoothBilinear: depth: expected finite and > 0, got 0", std::invalid_argument);
   CHECK_THROWS_WITH_AS(SmoothBilinear<1>({.depth = 1, .sharpness = -1}),
                        "SmoothBilinear: sharpness: expected finite and > 0, got -1", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Exponential<1>({.growth = 0}), "Exponential: growth: expected finite and > 0, got 0",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Layered<3>({.depths = {0.5, 0.25}}),
+                       "Layered: depths: expected finite, > 0 and ascending, got 0.25", std::invalid_argument);
   CHECK_THROWS_WITH_AS(HuntCrossley<1>({.exponent = 0.5}), "HuntCrossley: exponent: expected finite and >= 1, got 0.5",
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS((Fixed<Tangent<1>, 1>({.known = One(nan)})), "Fixed: known: expected finite, got nan",

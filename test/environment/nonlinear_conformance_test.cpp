@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <limpid/environment/exponential.hpp>
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/layered.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/unilateral.hpp>
 
@@ -36,6 +38,17 @@ TEST_CASE_TEMPLATE("the smooth bilinear tissue is an environment", Scalar, float
 TEST_CASE_TEMPLATE("Hunt-Crossley is an environment", Scalar, float, double, long double) {
   using E = HuntCrossley<3, Scalar>;
   check_environment(E({.exponent = Scalar(1.3)}), range<E>({200, 0, 20}, {2000, 500, 40}));
+}
+
+TEST_CASE_TEMPLATE("the exponential tissue is an environment", Scalar, float, double, long double) {
+  using E = Exponential<3, Scalar>;
+  check_environment(E({.growth = Scalar(150)}), range<E>({0.5, 20}, {2, 40}));
+}
+
+TEST_CASE_TEMPLATE("the layered tissue is an environment", Scalar, float, double, long double) {
+  using E = Layered<3, 3, Scalar>;
+  check_environment(E({.depths = {Scalar(0.0015), Scalar(0.0025)}}),
+                    range<E>({200, 1000, 500, 20}, {800, 2000, 1500, 40}));
 }
 
 TEST_CASE_TEMPLATE("a unilateral environment is one", Scalar, float, double, long double) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/environment/coupled.hpp>
+#include <limpid/environment/exponential.hpp>
 #include <limpid/environment/fixed.hpp>
 #include <limpid/environment/hunt_crossley.hpp>
 #include <limpid/environment/kelvin_voigt.hpp>
+#include <limpid/environment/layered.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/tangent_model.hpp>
 #include <limpid/environment/unilateral.hpp>
@@ -43,6 +45,11 @@ TEST_CASE("each model's tangent is its force's derivative, in 50 digits") {
   using HC = HuntCrossley<1, Fifty>;
   check_tangent_is_the_derivative(HC({.exponent = Fifty(13) / 10}), range<HC>({200, 0, 20}, {2000, 500, 40}));
   check_tangent_is_the_derivative(tissue, range<SmoothBilinear<1, Fifty>>({200, 1000, 20}, {800, 2000, 40}));
+  using X = Exponential<1, Fifty>;
+  check_tangent_is_the_derivative(X({.growth = Fifty(150)}), range<X>({1, 20}, {2, 40}));
+  using L = Layered<3, 2, Fifty>;
+  check_tangent_is_the_derivative(L({.depths = {Fifty(15) / 10'000, Fifty(25) / 10'000}}),
+                                  range<L>({200, 1000, 500, 20}, {800, 2000, 1500, 40}));
   using C = Coupled<2, Fifty>;
   check_tangent_is_the_derivative(C{}, range<C>({200, -50, 20, -5}, {2000, 50, 40, 5}));
 }
