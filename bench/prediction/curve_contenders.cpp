@@ -4,7 +4,6 @@
 
 #include <limpid/prediction/tissue_predictor.hpp>
 
-#include <chrono>
 #include <memory>
 
 namespace limpid::bench {
@@ -12,9 +11,7 @@ namespace limpid::bench {
 namespace {
 
 TissuePredictorSettings<> settings_for(const Course& course) {
-  return {.mass = tool_mass,
-          .tool_damping = tool_damping,
-          .period = static_cast<Duration::rep>(course.period) * std::chrono::milliseconds(1)};
+  return {.mass = tool().mass, .tool_damping = tool().damping, .period = time_of(course.period)};
 }
 
 Trace curve(const Course& course) {

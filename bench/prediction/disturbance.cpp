@@ -12,7 +12,7 @@ const std::vector<Disturbance>& disturbances() {
       {.name = "state-noise", .sensing = {.position_noise = 3e-6, .velocity_noise = 1e-4}, .late_asked = 0.06},
       {.name = "quantised", .sensing = {.position_step = 1e-5, .force_step = 0.01}},
       {.name = "stiffness-step", .tissue = {.step = 1.3}},
-      {.name = "idle-step", .tissue = {.step = 1.3, .idle = true}},
+      {.name = "idle-step", .tissue = {.step = 1.3}, .idle = true},
       {.name = "softening", .tissue = {.softening = 0.02}},
       {.name = "jitter", .sensing = {.jitter = 0.2}},
       {.name = "loss", .sensing = {.loss = 0.05}},

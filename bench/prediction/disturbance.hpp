@@ -12,7 +12,8 @@ namespace limpid::bench {
 /// What makes a run hard, and what is asked of a prediction there.
 struct Disturbance {
   std::string name;
-  TissueChange tissue{};
+  TissueChange tissue{};  ///< its step comes at half time
+  bool idle = false;      ///< whether the operator rests around half time
   Sensing sensing{};
   double late_asked = 0.02;  ///< error over hold's after 8 s, at most
 

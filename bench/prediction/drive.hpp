@@ -17,8 +17,6 @@ namespace limpid::bench {
   return std::chrono::milliseconds{static_cast<std::chrono::milliseconds::rep>(ticks)};
 }
 
-[[nodiscard]] inline Tool<1> tool() { return {.mass = tool_mass, .damping = tool_damping}; }
-
 /// As the environment sends it; of the acceleration it says nothing.
 [[nodiscard]] inline ToolSample<1> tool_sample(const SensedSample& sample) {
   ToolSample<1> sent;

@@ -14,9 +14,9 @@ constexpr int steps_a_tick = 4;
 
 Trace floor_trace(const Course& course, const Tissue& tissue, const TissueChange& change) {
   const auto& ticks = course.truth.ticks;
-  ToolInTissue tool(TissueForce(tissue, change, std::numeric_limits<double>::infinity()));
+  ToolInTissue known(TissueForce(tissue.force(), change, std::numeric_limits<double>::infinity()), tool());
   const auto advance = [&](ToolInTissue::State& s, std::size_t k) {
-    tool.advance(s, static_cast<double>(k) * tick_seconds, ticks[k].F_h, ticks[k + 1].F_h, steps_a_tick);
+    known.advance(s, static_cast<double>(k) * tick_seconds, tick_seconds, ticks[k].F_h, ticks[k + 1].F_h, steps_a_tick);
   };
   Trace trace(ticks.size());
   ToolInTissue::State s;
@@ -31,9 +31,9 @@ Trace floor_trace(const Course& course, const Tissue& tissue, const TissueChange
     if (next != first) {
       const std::size_t taken = std::prev(next)->taken;
       if (static_cast<double>(taken) * tick_seconds >= course.truth.step_shows) {
-        tool.tissue().steps_at(course.truth.step_at);
+        known.tissue().steps_at(course.truth.step_at);
       }
-      tool.tissue().know(lower, upper);
+      known.tissue().know(lower, upper);
       s = ticks[taken].tool;
       for (std::size_t k = taken; k < now; ++k) advance(s, k);
     } else if (next != course.samples.begin()) {

@@ -3,20 +3,16 @@
 
 #include "prediction/trace.hpp"
 
+#include <common/windows.hpp>
+
 #include <cstddef>
 #include <vector>
 
 namespace limpid::bench {
 
-inline constexpr double window_seconds = 4, late_seconds = 8;
-
-/// The error of (x, v) in L2, (3.35), over hold's in a window.
-struct Window {
-  double start = 0;       ///< s
-  double ratio = 0;       ///< NaN where hold has none
-  double hold_error = 0;  ///< hold's own, L2
-  bool judged = true;     ///< not where hold's own error is below 1 % of its run's mean
-};
+using examples::Window;
+using examples::window_seconds;
+inline constexpr double late_seconds = 8;
 
 /// What a run says of a predictor, each over hold's; NaN where nothing is judged.
 struct Figures {

@@ -21,7 +21,9 @@ std::vector<Group> groups_of(const Selection& selection) {
   const auto& all = selection.disturbances;
   std::vector<std::vector<std::size_t>> alike;
   for (std::size_t d = 0; d < all.size(); ++d) {
-    const auto same = [&](const auto& group) { return all[group.front()].tissue == all[d].tissue; };
+    const auto same = [&](const auto& group) {
+      return all[group.front()].tissue == all[d].tissue && all[group.front()].idle == all[d].idle;
+    };
     const auto found = std::ranges::find_if(alike, same);
     if (found == alike.end()) {
       alike.push_back({d});
@@ -56,15 +58,15 @@ void run_course(const Selection& selection, const Course& course, const Row& of_
 std::vector<Row> run_group(const Selection& selection, const Group& group) {
   const Tissue& tissue = selection.tissues[group.tissue];
   const Force& force = selection.forces[group.force];
-  const TissueChange& change = selection.disturbances[group.disturbances.front()].tissue;
-  const Truth truth = simulate(tissue, force, change, selection.seconds);
+  const Disturbance& first = selection.disturbances[group.disturbances.front()];
+  const Truth truth = simulate(tissue, force, first.tissue, selection.seconds, first.idle);
   std::vector<Row> rows;
   for (const std::size_t d : group.disturbances) {
     for (std::size_t p = 0; p < selection.periods.size(); ++p) {
-      const auto& [name, ignored, sensing, asked] = selection.disturbances[d];
+      const Disturbance& disturbance = selection.disturbances[d];
       const std::size_t period = selection.periods[p];
-      const auto samples = sampled(truth, period, sensing,
-                                   seed_of(tissue.name + ' ' + force.name + ' ' + name + ' ' + std::to_string(period)));
+      const std::string of = tissue.name + ' ' + force.name + ' ' + disturbance.name + ' ' + std::to_string(period);
+      const auto samples = sampled(truth, period, disturbance.sensing, seed_of(of));
       const Row of_course{.disturbance = d, .tissue = group.tissue, .force = group.force, .period = p, .figures = {}};
       run_course(selection, {truth, samples, period}, of_course, rows);
     }

@@ -3,19 +3,15 @@
 
 #include "prediction/truth.hpp"
 
+#include <common/sensing.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace limpid::bench {
 
-/// How the slow environment sees and sends.
-struct Sensing {
-  double force_noise = 0, position_noise = 0, velocity_noise = 0;  ///< standard deviations, N, m, m/s
-  double position_step = 0, force_step = 0;                        ///< quantisation, m, N; none: 0
-  double jitter = 0;                                               ///< of an instant, at most, in periods
-  double loss = 0;                                                 ///< probability
-};
+using examples::Sensing;
 
 /// Of the tool, in ticks: it arrives a period after it was taken.
 struct SensedSample {

@@ -21,24 +21,24 @@ double rest_around(double half_time, double t) {
 
 }  // namespace
 
-Truth simulate(const Tissue& tissue, const Force& force, const TissueChange& change, double seconds) {
-  Truth truth{.ticks = {}, .step_at = seconds / 2, .step_shows = seconds / 2 + (change.idle ? rest : 0)};
-  const ToolInTissue tool(TissueForce(tissue, change, truth.step_at));
+Truth simulate(const Tissue& tissue, const Force& force, const TissueChange& change, double seconds, bool idle) {
+  Truth truth{.ticks = {}, .step_at = seconds / 2, .step_shows = seconds / 2 + (idle ? rest : 0)};
+  const ToolInTissue pressed_tool(TissueForce(tissue.force(), change, truth.step_at), tool());
   const auto pressed = [&](double t) {
-    const double F_h = force.at(t) * (change.idle ? rest_around(truth.step_at, t) : 1);
+    const double F_h = force.at(t) * (idle ? rest_around(truth.step_at, t) : 1);
     return tissue.edge ? std::max(F_h, 0.0) : F_h;
   };
   const auto count = std::llround(seconds / tick_seconds);
   ToolInTissue::State s;
   double F_h = pressed(0);
   truth.ticks.reserve(static_cast<std::size_t>(count + 1));
-  truth.ticks.push_back({s, F_h, tool.force(s, 0, F_h)});
+  truth.ticks.push_back({s, F_h, pressed_tool.force(s, 0, F_h)});
   for (long long k = 0; k < count; ++k) {
     const double begin = static_cast<double>(k) * tick_seconds, end = static_cast<double>(k + 1) * tick_seconds;
     const double next = pressed(end);
-    tool.advance(s, begin, F_h, next, steps_a_tick);
+    pressed_tool.advance(s, begin, tick_seconds, F_h, next, steps_a_tick);
     F_h = next;
-    truth.ticks.push_back({s, F_h, tool.force(s, end, F_h)});
+    truth.ticks.push_back({s, F_h, pressed_tool.force(s, end, F_h)});
   }
   return truth;
 }

@@ -2,11 +2,19 @@
 #pragma once
 
 #include "prediction/force.hpp"
-#include "prediction/tool_in_tissue.hpp"
+#include "prediction/tissue.hpp"
+
+#include <limpid/environment/tool.hpp>
 
 #include <vector>
 
 namespace limpid::bench {
+
+inline constexpr double tick_seconds = 0.001;
+inline constexpr double tool_mass = 0.1;     // kg
+inline constexpr double tool_damping = 0.1;  // N s/m
+
+[[nodiscard]] inline Tool<1> tool() { return {.mass = tool_mass, .damping = tool_damping}; }
 
 /// One tick of what truly happens.
 struct TrueTick {
@@ -22,6 +30,8 @@ struct Truth {
   double step_shows = 0;  ///< from when on a step of the stiffness moves the tool, s
 };
 
-[[nodiscard]] Truth simulate(const Tissue& tissue, const Force& force, const TissueChange& change, double seconds);
+/// @param idle  whether the operator rests around half time
+[[nodiscard]] Truth simulate(const Tissue& tissue, const Force& force, const TissueChange& change, double seconds,
+                             bool idle = false);
 
 }  // namespace limpid::bench

@@ -1,25 +1,47 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "prediction/tissue.hpp"
+#include <limpid/environment/tool.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
-namespace limpid::bench {
+namespace limpid::examples {
 
-inline constexpr double tick_seconds = 0.001;
-inline constexpr double tool_mass = 0.1;     // kg
-inline constexpr double tool_damping = 0.1;  // N s/m
+/// What a tissue's force would be if nothing happened to it: F_e = elastic(x) + damping v.
+struct UndisturbedForce {
+  std::function<double(double)> elastic;  ///< N, at a depth in m
+  double damping = 0;                     ///< N s/m
+  std::optional<double> edge{};           ///< m, where contact begins; beyond it F_e >= 0. None: bilateral
+};
+
+/// What happens to a tissue during a run.
+struct TissueChange {
+  double step = 1;            ///< factor on the stiffness from some instant on
+  double softening = 0;       ///< of the stiffness, 1/s
+  double relaxation = 0;      ///< K of a Maxwell branch q' = K v - q / lag, N/m
+  double lag = 1;             ///< s
+  double damping_growth = 0;  ///< N s/m per m of depth
+  double friction = 0;        ///< Coulomb's, N
+
+  bool operator==(const TissueChange&) const = default;
+
+  /// Whether anything happens.
+  [[nodiscard]] bool any() const {
+    return step != 1 || softening != 0 || relaxation != 0 || damping_growth != 0 || friction != 0;
+  }
+};
 
 /// The force of a tissue that changes; its elastic part known within a range of depths, beyond it its tangent.
 class TissueForce {
  public:
   /// @param step_at  when the stiffness steps, s
-  TissueForce(Tissue tissue, const TissueChange& change, double step_at)
-      : tissue_{std::move(tissue)}, change_{change}, step_at_{step_at} {}
+  TissueForce(UndisturbedForce undisturbed, const TissueChange& change, double step_at)
+      : undisturbed_{std::move(undisturbed)}, change_{change}, step_at_{step_at} {}
 
   void steps_at(double time) { step_at_ = time; }
 
@@ -33,13 +55,21 @@ class TissueForce {
   /// @param q  force of the Maxwell branch, N
   [[nodiscard]] double operator()(double t, double x, double v, double q) const {
     const double known = std::clamp(x, lower_, upper_);
-    if (tissue_.edge && x <= *tissue_.edge) return 0;
-    double elastic = tissue_.elastic(known);
+    if (undisturbed_.edge && x <= *undisturbed_.edge) return 0;
+    double elastic = undisturbed_.elastic(known);
     if (x != known) elastic += (x < known ? lower_slope_ : upper_slope_) * (x - known);
     const double stiffness = (t >= step_at_ ? change_.step : 1) * (1 - change_.softening * t);
-    const double damping = tissue_.damping + change_.damping_growth * std::max(known, 0.0);
+    const double damping = undisturbed_.damping + change_.damping_growth * std::max(known, 0.0);
     const double force = stiffness * elastic + damping * v + q;
-    return tissue_.edge ? std::max(force, 0.0) : force;
+    return undisturbed_.edge ? std::max(force, 0.0) : force;
+  }
+
+  /// Of the rates at which a tool at a depth, or at the edge, can move of itself, about the largest, 1/s.
+  [[nodiscard]] double fastest(double x, const Tool<1>& tool) const {
+    const double depth = undisturbed_.edge ? std::max(x, *undisturbed_.edge + 1e-6) : x;
+    const double damping = undisturbed_.damping + change_.damping_growth * std::max(depth, 0.0) + tool.damping;
+    const double stiffness = std::max(change_.step, 1.0) * std::abs(slope(depth)) + change_.relaxation + tool.stiffness;
+    return damping / tool.mass + std::sqrt(stiffness / tool.mass) + (change_.relaxation > 0 ? 1 / change_.lag : 0);
   }
 
   [[nodiscard]] const TissueChange& change() const { return change_; }
@@ -47,10 +77,10 @@ class TissueForce {
  private:
   [[nodiscard]] double slope(double x) const {
     constexpr double d = 1e-8;  // m
-    return (tissue_.elastic(x + d) - tissue_.elastic(x - d)) / (2 * d);
+    return (undisturbed_.elastic(x + d) - undisturbed_.elastic(x - d)) / (2 * d);
   }
 
-  Tissue tissue_;
+  UndisturbedForce undisturbed_;
   TissueChange change_;
   double step_at_;
   double lower_ = -std::numeric_limits<double>::infinity(), upper_ = std::numeric_limits<double>::infinity();
@@ -66,13 +96,13 @@ class ToolInTissue {
     bool stuck = true;    ///< read with friction only
   };
 
-  explicit ToolInTissue(TissueForce force) : force_{std::move(force)} {}
+  ToolInTissue(TissueForce force, const Tool<1>& tool) : force_{std::move(force)}, tool_{tool} {}
 
   [[nodiscard]] TissueForce& tissue() { return force_; }
 
-  /// A tick from `begin`, s, over which the operator's force goes from F_0 to F_1 in a straight line.
-  void advance(State& s, double begin, double F_0, double F_1, int steps) const {
-    const double h = tick_seconds / steps;
+  /// A tick from `begin`, s, of `length`, s, over which the operator's force goes from F_0 to F_1 in a straight line.
+  void advance(State& s, double begin, double length, double F_0, double F_1, int steps) const {
+    const double h = length / steps;
     for (int i = 0; i < steps; ++i) {
       const double before = F_0 + (F_1 - F_0) * i / steps, after = F_0 + (F_1 - F_0) * (i + 1) / steps;
       step(s, begin + i * h, before, after, h);
@@ -83,7 +113,7 @@ class ToolInTissue {
   [[nodiscard]] double force(const State& s, double t, double F_h) const {
     const double F_c = force_.change().friction;
     if (!(F_c > 0)) return force_(t, s.x, s.v, s.q);
-    if (s.stuck) return force_(t, s.x, 0, s.q) + std::clamp(F_h - force_(t, s.x, 0, s.q), -F_c, F_c);
+    if (s.stuck) return force_(t, s.x, 0, s.q) + std::clamp(F_h - resisting(t, s), -F_c, F_c);
     return force_(t, s.x, s.v, s.q) + std::copysign(F_c, s.v);
   }
 
@@ -92,11 +122,16 @@ class ToolInTissue {
     double x, v, q;
   };
 
+  // Of the tissue and the tool's spring on a tool at rest, N.
+  [[nodiscard]] double resisting(double t, const State& s) const {
+    return tool_.stiffness * s.x + force_(t, s.x, 0, s.q);
+  }
+
   void step(State& s, double t, double before, double after, double h) const {
     const double F_c = force_.change().friction;
     double direction = s.v > 0 ? 1 : s.v < 0 ? -1 : 0;
     if (F_c > 0 && s.stuck) {
-      const double net = before - force_(t, s.x, 0, s.q);
+      const double net = before - resisting(t, s);
       if (std::abs(net) <= F_c) {
         s.q *= std::exp(-h / force_.change().lag);
         return;
@@ -107,7 +142,7 @@ class ToolInTissue {
     const State next = moved(s, t, before, after, h, F_c * direction);
     const bool turned = F_c > 0 && next.v * direction < 0;
     s = next;
-    if (turned && std::abs(after - force_(t + h, s.x, 0, s.q)) <= F_c) {
+    if (turned && std::abs(after - resisting(t + h, s)) <= F_c) {
       s.stuck = true;
       s.v = 0;
     }
@@ -117,7 +152,7 @@ class ToolInTissue {
     const auto slope = [&](double part, const Slope& k) {
       const double at = part * h, x = s.x + at * k.x, v = s.v + at * k.v, q = s.q + at * k.q;
       const double F_h = before + (after - before) * part;
-      return Slope{v, (F_h - tool_damping * v - force_(t + at, x, v, q) - friction) / tool_mass,
+      return Slope{v, (F_h - tool_.damping * v - tool_.stiffness * x - force_(t + at, x, v, q) - friction) / tool_.mass,
                    force_.change().relaxation * v - q / force_.change().lag};
     };
     const Slope k1 = slope(0, {0, 0, 0}), k2 = slope(0.5, k1), k3 = slope(0.5, k2), k4 = slope(1, k3);
@@ -126,6 +161,7 @@ class ToolInTissue {
   }
 
   TissueForce force_;
+  Tool<1> tool_;
 };
 
-}  // namespace limpid::bench
+}  // namespace limpid::examples
