@@ -14,4 +14,4 @@ cmake --preset release -D LIMPID_BUILD_BENCH=OFF
 cmake --build --preset release --target palpate
 
 result=build/release/palpate
-exec build/release/examples/palpate --predictor all --json $result.json --csv $result.csv --plot $result.svg "$@"
+exec build/release/examples/palpate --json $result.json --csv $result.csv --plot $result.svg "$@"

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "palpate_options.hpp"
 
-#include "number_list.hpp"
+#include "option_checks.hpp"
+#include "option_values.hpp"
 #include "output_file.hpp"
+#include "palpate_disturbance_options.hpp"
+#include "palpate_predictor_options.hpp"
+#include "palpate_tissue_options.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <sstream>
+#include <utility>
 
 namespace limpid::examples {
 
@@ -17,46 +19,18 @@ namespace {
 
 // As typed; what is absent takes its default from the rest.
 struct Typed {
-  std::string force_file, environment = "kelvin-voigt", robot = "ideal", json, csv, plot;
-  std::vector<double> raised_cosine, sine, stiffness, tool{0.1, 0.1, 0}, gain{0, 0}, start;
-  std::vector<std::string> predictors{"all"}, person{"force"};
-  double force_scale = 1, depth = 0.0028, sharpness = 20, exponent = 1.3, damping = 30;
-  double sample_period = 0.1, delay = 0, duration = 20, rate = 1000;
-  bool known = false, unilateral = false, playback = false;
+  TypedTissue tissue;
+  TypedDisturbances disturbances;
+  TypedPredictors predictors;
+  std::string force_file, robot = "ideal", json, csv, plot;
+  std::vector<double> raised_cosine, sine, tool{0.1, 0.1, 0};
+  std::vector<std::string> person{"force"};
+  double force_scale = 1, sample_period = 0.1, delay = 0, duration = 20, rate = 1000;
+  bool playback = false;
 };
-
-[[noreturn]] void refuse(const std::string& option, const std::string& accepts) {
-  throw CLI::ValidationError(option, accepts);
-}
-
-std::string text(double value) {
-  std::ostringstream words;
-  words << value;
-  return words.str();
-}
-
-// A path to write to.
-CLI::Validator output() {
-  return CLI::Validator([](std::string& typed) { return refusal_of_output(typed); }, "", "output");
-}
-
-// Finite numbers of [least, most]; `open` leaves `least` itself out.
-CLI::Validator within(double least, double most, bool open = false) {
-  std::ostringstream words;
-  words << "a number in " << (open ? "(" : "[") << least << ", " << most << "]";
-  return CLI::Validator(
-      [=, text = words.str()](std::string& typed) -> std::string {
-        double value = 0;
-        const bool number = CLI::detail::lexical_cast(typed, value) && std::isfinite(value);
-        const bool inside = number && value <= most && (open ? value > least : value >= least);
-        return inside ? std::string{} : "accepts " + text + ", got " + typed;
-      },
-      "", "within");
-}
 
 void add_options(CLI::App& app, Typed& typed) {
   const auto any = within(-1e6, 1e6);
-  const auto positive = within(0, 1e6, true), not_negative = within(0, 1e6);
   const auto seconds = within(1e-6, 1e4);
   CLI::Option* file = app.add_option("--force", typed.force_file, "recorded operator's force: CSV of time, force")
                           ->check(CLI::ExistingFile);
@@ -73,33 +47,12 @@ void add_options(CLI::App& app, Typed& typed) {
       ->expected(1, 2)
       ->type_name("force|hand M,B,K");
 
-  app.add_option("--environment", typed.environment, "the tissue")
-      ->check(CLI::IsMember({"kelvin-voigt", "smooth-bilinear", "hunt-crossley"}));
-  app.add_option("--stiffness", typed.stiffness, "K, N/m; K1,K2 for smooth-bilinear")
-      ->delimiter(',')
-      ->expected(1, 2)
-      ->check(not_negative);
-  app.add_option("--depth", typed.depth, "XS of smooth-bilinear, m")->check(positive);
-  app.add_option("--sharpness", typed.sharpness, "R of smooth-bilinear")->check(positive);
-  app.add_option("--exponent", typed.exponent, "N of hunt-crossley")->check(within(1, 10));
-  app.add_option("--damping", typed.damping, "B, N s/m")->check(not_negative);
-  app.add_flag("--unilateral", typed.unilateral, "the tool may leave the wall");
-
-  app.add_option("--tool", typed.tool, "M,B,K: kg, N s/m, N/m")->delimiter(',')->expected(3)->check(not_negative);
+  add_tissue_options(app, typed.tissue);
+  add_disturbance_options(app, typed.disturbances);
+  app.add_option("--tool", typed.tool, "M,B,K: kg, N s/m, N/m")->delimiter(',')->expected(3)->check(within(0, 1e6));
   app.add_option("--sample-period", typed.sample_period, "T_d of the tissue, s")->check(seconds);
   app.add_option("--delay", typed.delay, "from sample to arrival, s; default: the period")->check(within(0, 1e4));
-  app.add_option("--predictor", typed.predictors, "hold,model,ideal or all")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"hold", "model", "ideal", "all"}));
-  app.add_option("--gain", typed.gain, "L1,L2 or six numbers: L0, L1, L2 of a scheduled gain")
-      ->delimiter(',')
-      ->expected(2, 6)
-      ->check(any);
-  app.add_flag("--known", typed.known, "the predictor knows the tissue");
-  app.add_option("--start", typed.start, "K,B: where the estimate starts")
-      ->delimiter(',')
-      ->expected(2)
-      ->check(not_negative);
+  add_predictor_options(app, typed.predictors);
 
   app.add_option("--robot", typed.robot, "the simulated Omni")->check(CLI::IsMember({"ideal", "realistic"}));
   app.add_flag("--playback", typed.playback, "the operator's force does not act on the arm");
@@ -110,30 +63,7 @@ void add_options(CLI::App& app, Typed& typed) {
   app.add_option("--plot", typed.plot, "draw force, motion and error here (SVG)")->check(output());
 }
 
-void refuse_strangers(const CLI::App& app, const Typed& typed) {
-  const auto only_with = [&](const char* option, const char* environment) {
-    if (app.count(option) > 0 && typed.environment != environment) {
-      refuse(option, std::string("goes with --environment ") + environment + ", got " + typed.environment);
-    }
-  };
-  only_with("--depth", "smooth-bilinear");
-  only_with("--sharpness", "smooth-bilinear");
-  only_with("--exponent", "hunt-crossley");
-  if (typed.stiffness.size() == 2 && typed.environment != "smooth-bilinear") {
-    refuse("--stiffness", "accepts one number K with --environment " + typed.environment + ", got two");
-  }
-  if (typed.stiffness.size() == 1 && typed.environment == "smooth-bilinear") {
-    refuse("--stiffness", "accepts K1,K2 with --environment smooth-bilinear, got one number");
-  }
-  const auto predicted = [&](const char* word) {
-    return std::find(typed.predictors.begin(), typed.predictors.end(), word) != typed.predictors.end();
-  };
-  if (predicted("all") && typed.predictors.size() > 1) refuse("--predictor", "accepts all, or a list without it");
-  for (const char* option : {"--gain", "--known", "--start"}) {
-    if (app.count(option) > 0 && !predicted("all") && !predicted("model")) {
-      refuse(option, "goes with --predictor model, which is not asked for");
-    }
-  }
+void refuse_same_outputs(const Typed& typed) {
   std::vector<std::string> outputs;
   for (const std::string& path : {typed.json, typed.csv, typed.plot}) {
     if (path.empty()) continue;
@@ -142,7 +72,6 @@ void refuse_strangers(const CLI::App& app, const Typed& typed) {
     }
     outputs.push_back(path);
   }
-  if (typed.known && !typed.start.empty()) refuse("--start", "accepts nothing with --known: nothing is estimated");
 }
 
 std::optional<HandModel> hand_of(const Typed& typed) {
@@ -165,43 +94,6 @@ std::optional<HandModel> hand_of(const Typed& typed) {
   return hand;
 }
 
-Tissue tissue_of(const Typed& typed) {
-  static const std::map<std::string, TissueKind> kinds{{"kelvin-voigt", TissueKind::kelvin_voigt},
-                                                       {"smooth-bilinear", TissueKind::smooth_bilinear},
-                                                       {"hunt-crossley", TissueKind::hunt_crossley}};
-  static const std::map<TissueKind, std::vector<double>> stiffness{{TissueKind::kelvin_voigt, {800}},
-                                                                   {TissueKind::smooth_bilinear, {370, 1980}},
-                                                                   {TissueKind::hunt_crossley, {1500}}};
-  Tissue tissue;
-  tissue.kind = kinds.at(typed.environment);
-  const std::vector<double>& k = typed.stiffness.empty() ? stiffness.at(tissue.kind) : typed.stiffness;
-  tissue.stiffness = k.front();
-  tissue.stiffness2 = k.back();
-  tissue.depth = typed.depth;
-  tissue.sharpness = typed.sharpness;
-  tissue.exponent = typed.exponent;
-  tissue.damping = typed.damping;
-  tissue.unilateral = typed.unilateral;
-  return tissue;
-}
-
-Estimation estimation_of(const Typed& typed, const Tissue& tissue) {
-  Estimation estimation;
-  estimation.known = typed.known;
-  const bool linear = tissue.kind == TissueKind::kelvin_voigt;
-  if (!linear) estimation.damping = typed.damping;  // the offset model knows b
-  if (typed.start.empty()) return estimation;
-  estimation.stiffness = typed.start[0];
-  estimation.damping = typed.start[1];
-  if (estimation.stiffness < 200 || estimation.stiffness > 2000) {
-    refuse("--start", "accepts K in [200, 2000], got " + text(estimation.stiffness));
-  }
-  if (linear && (estimation.damping < 20 || estimation.damping > 40)) {
-    refuse("--start", "accepts B in [20, 40], got " + text(estimation.damping));
-  }
-  return estimation;
-}
-
 PressForce force_of(const CLI::App& app, const Typed& typed) {
   const Duration wanted = from_seconds(typed.duration);
   if (!typed.raised_cosine.empty()) return raised_cosine_force(typed.raised_cosine[0], typed.raised_cosine[1], wanted);
@@ -216,29 +108,21 @@ PressForce force_of(const CLI::App& app, const Typed& typed) {
   return force;
 }
 
-std::vector<PredictorKind> predictors_of(const Typed& typed) {
-  const auto wanted = [&](const char* word) {
-    return std::find(typed.predictors.begin(), typed.predictors.end(), word) != typed.predictors.end();
-  };
-  std::vector<PredictorKind> predictors;
-  for (const PredictorKind kind : {PredictorKind::hold, PredictorKind::model, PredictorKind::ideal}) {
-    if (wanted("all") || wanted(name(kind))) predictors.push_back(kind);
-  }
-  return predictors;
+// Where nothing pulls: a tissue that is touched at a wall could not keep hold of a tool that is pulled at.
+PressForce only_pressing(PressForce force) {
+  force.at = [pulled = std::move(force.at)](Time t) { return std::max(pulled(t), 0.0); };
+  return force;
 }
 
 Scene scene_of(const CLI::App& app, const Typed& typed) {
-  refuse_strangers(app, typed);
-  if (typed.gain.size() != 2 && typed.gain.size() != 6) {
-    refuse("--gain", "accepts two or six numbers, got " + std::to_string(typed.gain.size()));
-  }
   if (typed.tool[0] < 1e-6) refuse("--tool", "accepts a mass of 1e-6 kg or more, got " + text(typed.tool[0]));
   Scene scene;
-  scene.tissue = tissue_of(typed);
-  scene.estimation = estimation_of(typed, scene.tissue);
-  scene.gain = typed.gain;
+  scene.tissue = tissue_of(app, typed.tissue);
+  scene.estimation = estimation_of(typed.predictors, scene.tissue);
+  scene.gain = typed.predictors.gain;
   scene.tool = {.mass = typed.tool[0], .damping = typed.tool[1], .stiffness = typed.tool[2]};
   scene.force = force_of(app, typed);
+  if (scene.tissue.wall) scene.force = only_pressing(std::move(scene.force));
   scene.duration = scene.force.duration;
   scene.tick = from_seconds(1 / typed.rate);
   scene.period = from_seconds(typed.sample_period);
@@ -260,6 +144,7 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
   if (scene.duration <= scene.period + scene.delay) {
     refuse("--duration", "accepts more than the sample period and the delay together");
   }
+  scene.disturbances = disturbances_of(typed.disturbances, in_seconds(scene.duration));
   scene.robot = typed.robot == "ideal" ? RobotKind::ideal : RobotKind::realistic;
   scene.hand = hand_of(typed);
   scene.playback = typed.playback;
@@ -267,18 +152,6 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
 }
 
 }  // namespace
-
-const char* name(PredictorKind kind) {
-  switch (kind) {
-    case PredictorKind::hold:
-      return "hold";
-    case PredictorKind::model:
-      return "model";
-    case PredictorKind::ideal:
-      return "ideal";
-  }
-  return "unknown";
-}
 
 PalpateOptions parse_palpate_options(int argc, const char* const* argv) {
   CLI::App app{"A hand presses a simulated Phantom Omni against a slow tissue, with and without prediction.",
@@ -288,12 +161,14 @@ PalpateOptions parse_palpate_options(int argc, const char* const* argv) {
   PalpateOptions options;
   try {
     app.parse(argc, argv);
+    options.predictors = predictors_of(app, typed.predictors);
+    refuse_same_outputs(typed);
     options.scene = scene_of(app, typed);
+    refuse_unserved(options.predictors, options.scene);
   } catch (const CLI::ParseError& error) {
     options.exit_code = app.exit(error);
     return options;
   }
-  options.predictors = predictors_of(typed);
   options.json = typed.json;
   options.csv = typed.csv;
   options.plot = typed.plot;

@@ -3,9 +3,8 @@
 
 #include "chart.hpp"
 #include "output_file.hpp"
+#include "palpate_json.hpp"
 #include "trace_curve.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,14 +15,6 @@
 namespace limpid::examples {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-const PalpationResult* hold_of(const std::vector<PalpationRun>& runs) {
-  const auto found = std::find_if(runs.begin(), runs.end(),
-                                  [](const PalpationRun& run) { return run.predictor == PredictorKind::hold; });
-  return found == runs.end() ? nullptr : &found->result;
-}
 
 template <typename... Values>
 std::string text(const char* format, Values... values) {
@@ -77,59 +68,6 @@ void print_verdict(std::ostream& out, const std::vector<PalpationRun>& runs) {
   }
 }
 
-const char* name(TissueKind kind) {
-  switch (kind) {
-    case TissueKind::kelvin_voigt:
-      return "kelvin-voigt";
-    case TissueKind::smooth_bilinear:
-      return "smooth-bilinear";
-    case TissueKind::hunt_crossley:
-      return "hunt-crossley";
-  }
-  return "unknown";
-}
-
-Json settings_of(const Scene& scene) {
-  const Tissue& tissue = scene.tissue;
-  Json json{{"force", scene.force.description},
-            {"duration", in_seconds(scene.duration)},
-            {"rate", 1 / in_seconds(scene.tick)},
-            {"sample_period", in_seconds(scene.period)},
-            {"delay", in_seconds(scene.delay)},
-            {"environment", name(tissue.kind)},
-            {"stiffness", tissue.stiffness},
-            {"damping", tissue.damping},
-            {"unilateral", tissue.unilateral},
-            {"tool", {scene.tool.mass, scene.tool.damping, scene.tool.stiffness}},
-            {"gain", scene.gain},
-            {"known", scene.estimation.known},
-            {"robot", scene.robot == RobotKind::ideal ? "ideal" : "realistic"},
-            {"playback", scene.playback}};
-  if (tissue.kind == TissueKind::smooth_bilinear) {
-    json["stiffness"] = {tissue.stiffness, tissue.stiffness2};
-    json["depth"] = tissue.depth;
-    json["sharpness"] = tissue.sharpness;
-  }
-  if (tissue.kind == TissueKind::hunt_crossley) json["exponent"] = tissue.exponent;
-  json["operator"] = scene.hand ? "hand" : "force";
-  if (!scene.estimation.known) json["start"] = {scene.estimation.stiffness, scene.estimation.damping};
-  return json;
-}
-
-Json norms(const ErrorNorms<3>& error) {
-  return {{"max", error.total().max},
-          {"l2", error.total().l2},
-          {"position", {{"max", error.position().max}, {"l2", error.position().l2}}},
-          {"velocity", {{"max", error.velocity().max}, {"l2", error.velocity().l2}}}};
-}
-
-Json ticks(const LatencyHistogram& tick) {
-  return {{"p50", tick.quantile(0.5).count()},
-          {"p99", tick.quantile(0.99).count()},
-          {"p99.9", tick.quantile(0.999).count()},
-          {"max", tick.max().count()}};
-}
-
 // Work = kinetic + elastic + dissipated + delivered: what the hand did, and where that went.
 void print_energies(std::ostream& out, const std::vector<PalpationRun>& runs) {
   out << text("%-18s %10s %10s %10s %10s %10s\n", "hand's energy, J", "work", "kinetic", "elastic", "dissipated",
@@ -139,48 +77,6 @@ void print_energies(std::ostream& out, const std::vector<PalpationRun>& runs) {
     out << text("  %-16s %10.3g %10.3g %10.3g %10.3g %10.3g\n", name(run.predictor), of.work, of.kinetic, of.elastic,
                 of.dissipated, of.delivered);
   }
-}
-
-Json energies(const HandEnergy<>& energy) {
-  return {{"work", energy.work},
-          {"kinetic", energy.kinetic},
-          {"elastic", energy.elastic},
-          {"dissipated", energy.dissipated},
-          {"delivered", energy.delivered}};
-}
-
-Json changes(const PalpationResult& result, const PalpationResult& hold) {
-  const Norms<> prediction = result.prediction.total(), held = hold.prediction.total();
-  const Norms<> total = result.total.total(), held_total = hold.total.total();
-  return {{"prediction_max", relative_change(prediction.max, held.max)},
-          {"prediction_l2", relative_change(prediction.l2, held.l2)},
-          {"total_max", relative_change(total.max, held_total.max)},
-          {"total_l2", relative_change(total.l2, held_total.l2)}};
-}
-
-Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
-  Json json{{"settings", settings_of(scene)}};
-  if (scene.hand) {
-    json["operator"] = {
-        {"mass", scene.hand->mass}, {"damping", scene.hand->damping}, {"stiffness", scene.hand->stiffness}};
-  }
-  json["predictors"] = Json::object();
-  const PalpationResult* hold = hold_of(runs);
-  LatencyHistogram all;
-  for (const PalpationRun& run : runs) {
-    const PalpationResult& result = run.result;
-    Json& entry = json["predictors"][name(run.predictor)];
-    entry["prediction_error"] = norms(result.prediction);
-    entry["total_error"] = norms(result.total);
-    if (hold != nullptr) entry["change"] = changes(result, *hold);
-    if (scene.hand) entry["energy"] = energies(result.energy);
-    entry["tick_ns"] = ticks(result.tick);
-    entry["status"] = describe(result.status);
-    entry["fault"] = has(result.status, Status::fault);
-    all.merge(result.tick);
-  }
-  json["tick_ns"] = ticks(all);
-  return json;
 }
 
 // With a hand the force and the tool under it are each predictor's own.
@@ -242,6 +138,12 @@ Chart palpation_chart(const Scene& scene, const std::vector<PalpationRun>& runs)
 
 }  // namespace
 
+const PalpationResult* hold_of(const std::vector<PalpationRun>& runs) {
+  const auto found = std::find_if(runs.begin(), runs.end(),
+                                  [](const PalpationRun& run) { return run.predictor == PredictorKind::hold; });
+  return found == runs.end() ? nullptr : &found->result;
+}
+
 void print_table(std::ostream& out, const Scene& scene, const std::vector<PalpationRun>& runs) {
   out << scene.force.description << " on " << name(scene.tissue.kind) << ", "
       << text("%g s at %g Hz; sampled every %g s, seen %g s later\n", in_seconds(scene.duration),
@@ -273,7 +175,7 @@ bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs) {
 
 void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs) {
   if (!options.json.empty()) {
-    write_file(options.json, report(options.scene, runs).dump(2) + '\n');
+    write_file(options.json, as_json(options.scene, runs));
     out << "figures: " << options.json << '\n';
   }
   if (!options.csv.empty()) {

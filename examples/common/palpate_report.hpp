@@ -14,6 +14,9 @@ struct PalpationRun {
   PalpationResult result;
 };
 
+/// Null where hold was not asked for.
+[[nodiscard]] const PalpationResult* hold_of(const std::vector<PalpationRun>& runs);
+
 /// Errors and tick times of each predictor, with the change against hold where hold was run.
 void print_table(std::ostream& out, const Scene& scene, const std::vector<PalpationRun>& runs);
 

@@ -2,14 +2,8 @@
 #include "palpation_loops.hpp"
 #include "palpation_run.hpp"
 
-#include <limpid/environment/hunt_crossley.hpp>
-#include <limpid/environment/kelvin_voigt.hpp>
-#include <limpid/environment/smooth_bilinear.hpp>
-#include <limpid/environment/unilateral.hpp>
-#include <limpid/environment/virtual_tool.hpp>
-
-#include <memory>
 #include <stdexcept>
+#include <string>
 
 namespace limpid::examples {
 
@@ -30,60 +24,7 @@ Theta9 first_estimate(const Scene& scene) {
   return scene.robot == RobotKind::realistic ? Omni<>::table_5_2() : Theta9(1.1 * plant_parameters(scene));
 }
 
-ToolState<3> in_space(const ToolState<3>& tool) { return tool; }
-
-ToolState<3> in_space(const ToolState<1>& tool) {
-  return {{tool.x[0], 0, 0}, {tool.v[0], 0, 0}, {tool.a[0], 0, 0}, {tool.force[0], 0, 0}};
-}
-
-template <Environment E>
-Plant plant_of(const Scene& scene, const E& environment, const EnvironmentTheta<E>& theta) {
-  constexpr int axes = EnvironmentTraits<E>::axes;
-  using Simulated = VirtualTool<E>;
-  const auto tool = std::make_shared<Simulated>(
-      typename Simulated::Settings{.environment = environment, .theta = theta, .tool = tool_of<axes>(scene)});
-  return [tool](Time now, double force) {
-    typename Simulated::Vector F_h = Simulated::Vector::Zero();
-    F_h[0] = force;
-    const auto [state, status] = tool->advance(now, F_h);
-    if (status != Status::ok) {
-      throw std::runtime_error(
-          "--tool, --stiffness, --damping, --force: the tool's motion is too fast to be integrated (" +
-          describe(status) + ")");
-    }
-    return in_space(state);
-  };
-}
-
-template <Environment E>
-Plant with_contact(const Scene& scene, const E& environment, const EnvironmentTheta<E>& theta) {
-  if (!scene.tissue.unilateral) return plant_of(scene, environment, theta);
-  return plant_of(scene, Unilateral<E>({.environment = environment}), theta);
-}
-
 }  // namespace
-
-Plant make_plant(const Scene& scene) {
-  const Tissue& tissue = scene.tissue;
-  if (scene.spring_at_base) {
-    if (tissue.kind != TissueKind::kelvin_voigt || tissue.unilateral) {
-      throw std::invalid_argument("Scene: spring_at_base: expected a bilateral kelvin_voigt tissue");
-    }
-    EnvironmentTheta<KelvinVoigt<3>> theta = EnvironmentTheta<KelvinVoigt<3>>::Zero();
-    theta.row(0) << tissue.stiffness, tissue.damping;
-    return plant_of(scene, KelvinVoigt<3>{}, theta);
-  }
-  switch (tissue.kind) {
-    case TissueKind::kelvin_voigt:
-      return with_contact(scene, KelvinVoigt<1>{}, {tissue.stiffness, tissue.damping});
-    case TissueKind::smooth_bilinear:
-      return with_contact(scene, SmoothBilinear<1>({.depth = tissue.depth, .sharpness = tissue.sharpness}),
-                          {tissue.stiffness, tissue.stiffness2, tissue.damping});
-    case TissueKind::hunt_crossley:
-      return with_contact(scene, HuntCrossley<1>({.exponent = tissue.exponent}), {tissue.stiffness, 0, tissue.damping});
-  }
-  throw std::invalid_argument("Scene: tissue: unknown kind");
-}
 
 Eigen::Vector3d wall_of(const Scene& scene) { return Omni<>{}.at(scene.start).position(); }
 
@@ -117,15 +58,30 @@ PalpationResult palpate(const Scene& scene, PredictorKind predictor, const Progr
     throw std::invalid_argument("Scene: hand: expected none with playback, in which nothing holds the arm");
   }
   switch (predictor) {
-    case PredictorKind::hold:
-      return palpate_with_hold(scene, progress);
-    case PredictorKind::model:
-      return scene.estimation.known ? palpate_with_known_model(scene, progress)
-                                    : palpate_with_estimated_model(scene, progress);
     case PredictorKind::ideal:
       return palpate_with_ideal_signal(scene, progress);
+    case PredictorKind::model:
+      return palpate_with_model(scene, progress);
+    case PredictorKind::hold:
+      return palpate_with_extrapolation(scene, predictor, progress);
+    default:
+      break;
   }
-  throw std::invalid_argument("palpate: unknown predictor");
+  if (scene.spring_at_base) {
+    throw std::invalid_argument(std::string("Scene: spring_at_base: expected hold, model or ideal, got ") +
+                                name(predictor));
+  }
+  switch (predictor) {
+    case PredictorKind::replay:
+      return palpate_with_replay(scene, progress);
+    case PredictorKind::smith:
+      return palpate_with_smith(scene, progress);
+    case PredictorKind::curve:
+    case PredictorKind::chosen:
+      return palpate_with_learning(scene, predictor, progress);
+    default:
+      return palpate_with_extrapolation(scene, predictor, progress);
+  }
 }
 
 }  // namespace limpid::examples

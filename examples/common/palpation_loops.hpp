@@ -3,16 +3,19 @@
 
 #include "scene.hpp"
 
-#include <functional>
-
 namespace limpid::examples {
 
-// One source each: a loop for every kind of predictor and tissue.
-[[nodiscard]] PalpationResult palpate_with_hold(const Scene& scene, const std::function<void(double)>& progress);
-[[nodiscard]] PalpationResult palpate_with_ideal_signal(const Scene& scene,
-                                                        const std::function<void(double)>& progress);
-[[nodiscard]] PalpationResult palpate_with_known_model(const Scene& scene, const std::function<void(double)>& progress);
-[[nodiscard]] PalpationResult palpate_with_estimated_model(const Scene& scene,
-                                                           const std::function<void(double)>& progress);
+// One source for each kind of predictor.
+
+[[nodiscard]] PalpationResult palpate_with_ideal_signal(const Scene& scene, const ProgressCallback& progress);
+/// @param predictor  hold, linear, quadratic or autoregressive
+[[nodiscard]] PalpationResult palpate_with_extrapolation(const Scene& scene, PredictorKind predictor,
+                                                         const ProgressCallback& progress);
+[[nodiscard]] PalpationResult palpate_with_model(const Scene& scene, const ProgressCallback& progress);
+[[nodiscard]] PalpationResult palpate_with_replay(const Scene& scene, const ProgressCallback& progress);
+[[nodiscard]] PalpationResult palpate_with_smith(const Scene& scene, const ProgressCallback& progress);
+/// @param predictor  curve or chosen
+[[nodiscard]] PalpationResult palpate_with_learning(const Scene& scene, PredictorKind predictor,
+                                                    const ProgressCallback& progress);
 
 }  // namespace limpid::examples

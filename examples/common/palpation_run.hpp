@@ -2,6 +2,7 @@
 // One loop over one scene, for any set of blocks; included by the sources that compose loops.
 #pragma once
 
+#include "palpation_sensing.hpp"
 #include "scene.hpp"
 
 #include <limpid/control/omni_safety.hpp>
@@ -17,8 +18,6 @@
 #include <utility>
 
 namespace limpid::examples {
-
-using ProgressCallback = std::function<void(double)>;
 
 /// The tissue as it truly is, whatever its type: moves the tool to `now` under the force at `now`, N.
 using Plant = std::function<ToolState<3>(Time now, double force)>;
@@ -53,8 +52,8 @@ template <int Axes, typename... PredictionBlocks>
   using Arm = Omni<>;
   return make_loop<wants<AllowedTorque<Arm>, PredictedMotion<Axes>>,
                    inputs<OperatorForce<>, ForceOnArm<>, TrueTool<Axes>, MeasuredState<Arm>>>(
-      SamplingBlock<Axes>{DelayedSampled<ToolState<Axes>>({.period = scene.period, .delay = scene.delay})},
-      std::move(prediction)..., KinematicsBlock<OmniKinematics<>, Arm, Axes>{OmniKinematics<>(Arm{}), wall_of(scene)},
+      SensingBlock<Axes>(scene), std::move(prediction)...,
+      KinematicsBlock<OmniKinematics<>, Arm, Axes>{OmniKinematics<>(Arm{}), wall_of(scene)},
       TrackingBlock<SlotineLiAdaptive<Arm>, Arm>{make_controller(scene)}, SafetyBlock<Arm>{make_limiter(scene)});
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "press_force.hpp"
+#include "sensing.hpp"
+#include "tool_in_tissue.hpp"
 
 #include <limpid/core/time.hpp>
 #include <limpid/environment/operator_hand.hpp>
@@ -11,6 +13,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,29 +22,48 @@
 
 namespace limpid::examples {
 
-enum class TissueKind { kelvin_voigt, smooth_bilinear, hunt_crossley };
-enum class PredictorKind { hold, model, ideal };
+enum class TissueKind { kelvin_voigt, smooth_bilinear, hunt_crossley, exponential, layered };
+enum class PredictorKind { hold, model, ideal, linear, quadratic, autoregressive, smith, replay, curve, chosen };
 enum class RobotKind { ideal, realistic };
 
+[[nodiscard]] const char* name(TissueKind kind);
 [[nodiscard]] const char* name(PredictorKind kind);
 
 /// What is pressed; only the fields of its kind are read.
 struct Tissue {
   TissueKind kind = TissueKind::kelvin_voigt;
-  double stiffness = 800;   ///< k, or the first slope, N/m (N/m^exponent for hunt_crossley)
-  double stiffness2 = 800;  ///< the second slope of smooth_bilinear, N/m
-  double depth = 0.0028;    ///< x_s of smooth_bilinear, m
-  double sharpness = 20;    ///< R of smooth_bilinear
-  double exponent = 1.3;    ///< of hunt_crossley
-  double damping = 30;      ///< b, N s/m
-  bool unilateral = false;  ///< whether the tool may leave the wall
+  double stiffness = 800;                            ///< k, or the first slope, N/m (N/m^exponent for hunt_crossley)
+  double stiffness2 = 800;                           ///< the second slope of smooth_bilinear, N/m
+  double depth = 0.0028;                             ///< x_s of smooth_bilinear, m
+  double sharpness = 20;                             ///< R of smooth_bilinear
+  double exponent = 1.3;                             ///< of hunt_crossley
+  double amplitude = 0.5;                            ///< A of exponential, N
+  double growth = 600;                               ///< r of exponential, 1/m
+  std::array<double, 3> layers{400, 1500, 800};      ///< stiffnesses of layered, N/m
+  std::array<double, 2> boundaries{0.0015, 0.0025};  ///< of the layers, m
+  double damping = 30;                               ///< b, N s/m
+  bool unilateral = false;                           ///< whether the tool may leave the wall
+  std::optional<double> wall{};  ///< where the tissue begins, m, touched from one side; none: at the start
+};
+
+/// Whether its two-parameter model (k, b) is estimated; of any other tissue (k, c), with b known.
+[[nodiscard]] inline bool estimates_damping(const Tissue& tissue) {
+  return tissue.kind == TissueKind::kelvin_voigt && !tissue.wall;
+}
+
+/// What the tissue does beside that, and how it is sampled.
+struct Disturbances {
+  TissueChange tissue;
+  double step_at = 0;  ///< when the stiffness steps, s
+  Sensing sensing;     ///< of depth, velocity and force; the acceleration is sent as it is
+  std::uint32_t seed = 1;
 };
 
 /// What the predictor starts from; the boxes, gains and forgetting factors are the thesis's (6.1.3, 6.2.2).
 struct Estimation {
   double stiffness = 1100;  ///< start of k, N/m
   double damping = 30;      ///< start of b; where the tissue is nonlinear, b as the offset model knows it, N s/m
-  bool known = false;       ///< the predictor knows the tissue: nothing is estimated
+  bool known = false;       ///< the predictor knows the tissue, not what disturbs it: nothing is estimated
 };
 
 /// L1, L2, or L0, L1, L2 of a scheduled gain, each a pair (position in N/m, velocity in N s/m).
@@ -56,6 +79,7 @@ struct HandModel {
 /// One palpation: a recorded hand presses a simulated Omni against a slow tissue.
 struct Scene {
   Tissue tissue;
+  Disturbances disturbances;
   Estimation estimation;
   PredictorGain gain{0, 0};
   Tool<1> tool{.mass = 0.1, .damping = 0.1};
@@ -91,10 +115,12 @@ struct PalpationResult {
   std::vector<TracePoint> trace;
 };
 
+/// Called now and then with the fraction done.
+using ProgressCallback = std::function<void(double)>;
+
 /// Runs the scene with one predictor.
-/// @param progress  called now and then with the fraction done
 /// @throws std::invalid_argument  where the scene contradicts itself
 [[nodiscard]] PalpationResult palpate(const Scene& scene, PredictorKind predictor,
-                                      const std::function<void(double)>& progress = {});
+                                      const ProgressCallback& progress = {});
 
 }  // namespace limpid::examples

@@ -10,6 +10,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 namespace limpid::test {
 
 /// What an example program said, and the figures that it wrote.
@@ -20,7 +22,8 @@ struct Answer {
 
 inline Answer ask_program(const std::string& program, const std::string& arguments) {
   CAPTURE(arguments);
-  const auto path = std::filesystem::temp_directory_path() / ("limpid_" + program + ".json");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("limpid_" + program + "_" + std::to_string(::getpid()) + ".json");
   Answer answer{run_program(program, arguments + " --json " + path.string()), {}};
   CAPTURE(answer.run.output);
   REQUIRE(answer.run.code == 0);

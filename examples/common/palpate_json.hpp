@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "palpate_report.hpp"
+#include "scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace limpid::examples {
+
+/// The settings, and the figures of each predictor.
+[[nodiscard]] std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs);
+
+}  // namespace limpid::examples
