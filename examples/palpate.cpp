@@ -7,6 +7,7 @@
 
 #include <exception>
 #include <iostream>
+#include <optional>
 
 int main(int argc, char** argv) {
   using namespace limpid::examples;
@@ -14,13 +15,17 @@ int main(int argc, char** argv) {
     const PalpateOptions options = parse_palpate_options(argc, argv);
     if (options.exit_code) return *options.exit_code;
 
-    std::vector<PalpationRun> runs;
-    for (const PredictorKind predictor : options.predictors) {
+    const auto run = [&](PredictorKind predictor) {
       Progress progress(name(predictor));
-      runs.push_back({predictor, palpate(options.scene, predictor, progress.callback())});
-    }
+      return palpate(options.scene, predictor, progress.callback());
+    };
+    std::vector<PalpationRun> runs;
+    for (const PredictorKind predictor : options.predictors) runs.push_back({predictor, run(predictor)});
     print_table(std::cout, options.scene, runs);
-    write_outputs(std::cout, options, runs);
+    const PalpationResult* hold = hold_of(runs);
+    std::optional<PalpationResult> unasked;  // the windows are judged by it
+    if (hold == nullptr && !options.json.empty()) hold = &unasked.emplace(run(PredictorKind::hold));
+    write_outputs(std::cout, options, runs, hold);
     return report_faults(std::cerr, runs) ? 2 : 0;
   } catch (const std::exception& error) {
     std::cerr << "palpate: " << error.what() << '\n';

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "palpate_json.hpp"
 
+#include "windows.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace limpid::examples {
@@ -102,7 +104,23 @@ Json changes(const PalpationResult& result, const PalpationResult& hold) {
           {"total_l2", relative_change(total.l2, held_total.l2)}};
 }
 
-Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
+// Of the prediction, (3.35), at each tick.
+std::vector<double> squared_errors(const PalpationResult& result) {
+  std::vector<double> squares;
+  squares.reserve(result.trace.size());
+  for (const TracePoint& point : result.trace) squares.push_back(point.prediction_error * point.prediction_error);
+  return squares;
+}
+
+Json windows(const std::vector<Window>& all) {
+  Json json = Json::array();
+  for (const auto& [start, ratio, hold_error, judged] : all) {
+    json.push_back({{"start", start}, {"error_over_hold", ratio}, {"hold_error", hold_error}, {"judged", judged}});
+  }
+  return json;
+}
+
+Json report(const Scene& scene, const std::vector<PalpationRun>& runs, const PalpationResult& reference) {
   Json json{{"settings", settings_of(scene)}};
   if (scene.hand) {
     json["operator"] = {
@@ -110,6 +128,7 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
   }
   json["predictors"] = Json::object();
   const PalpationResult* hold = hold_of(runs);
+  const std::vector<double> of_hold = squared_errors(reference);
   LatencyHistogram all;
   for (const PalpationRun& run : runs) {
     const PalpationResult& result = run.result;
@@ -119,6 +138,7 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
     if (hold != nullptr) entry["change"] = changes(result, *hold);
     if (scene.hand) entry["energy"] = energies(result.energy);
     entry["tick_ns"] = ticks(result.tick);
+    entry["windows"] = windows(windows_of(squared_errors(result), of_hold, in_seconds(scene.tick)));
     entry["status"] = describe(result.status);
     entry["fault"] = has(result.status, Status::fault);
     all.merge(result.tick);
@@ -129,8 +149,8 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs) {
 
 }  // namespace
 
-std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs) {
-  return report(scene, runs).dump(2) + '\n';
+std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs, const PalpationResult& hold) {
+  return report(scene, runs, hold).dump(2) + '\n';
 }
 
 }  // namespace limpid::examples

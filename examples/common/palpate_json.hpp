@@ -10,6 +10,8 @@
 namespace limpid::examples {
 
 /// The settings, and the figures of each predictor.
-[[nodiscard]] std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs);
+/// @param hold  whose errors the windows are judged by
+[[nodiscard]] std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs,
+                                  const PalpationResult& hold);
 
 }  // namespace limpid::examples

@@ -173,9 +173,10 @@ bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs) {
   return any;
 }
 
-void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs) {
+void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs,
+                   const PalpationResult* hold) {
   if (!options.json.empty()) {
-    write_file(options.json, as_json(options.scene, runs));
+    write_file(options.json, as_json(options.scene, runs, *hold));
     out << "figures: " << options.json << '\n';
   }
   if (!options.csv.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every predictor of palpate.
+// Every predictor of palpate, and the windows that they are judged by.
 #include "common/scene.hpp"
+#include "common/windows.hpp"
 #include "support/ask_program.hpp"
 
 #include <doctest/doctest.h>
@@ -100,6 +101,43 @@ TEST_CASE("only hold, model and ideal work where the tool's spring pulls to the 
   scene.spring_at_base = true;
   CHECK_THROWS_WITH_AS((void)palpate(scene, PredictorKind::replay),
                        "Scene: spring_at_base: expected hold, model or ideal, got replay", std::invalid_argument);
+}
+
+TEST_CASE("windows are whole, judged by hold's error, and listed where that is small") {
+  // 14 s at 10 Hz: three windows and a rest. Hold errs by 2, 0.001 and 2, the other by half of it.
+  std::vector<double> hold, half;
+  for (int k = 0; k <= 140; ++k) {
+    const double error = k >= 40 && k < 80 ? 1e-3 : 2;
+    hold.push_back(error * error);
+    half.push_back(error * error / 4);
+  }
+  const auto windows = windows_of(half, hold, 0.1);
+  REQUIRE(windows.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(windows[i].start == 4.0 * static_cast<double>(i));
+    CHECK(windows[i].ratio == doctest::Approx(0.5));
+    CHECK(windows[i].judged == (i != 1));
+  }
+  CHECK(windows[0].hold_error == doctest::Approx(4));  // sqrt(4 s 2^2)
+}
+
+TEST_CASE("a window in which hold has no error has no ratio, and one that is not finite is infinite") {
+  const std::vector<double> none(41, 0), some(41, 1), infinite(41, INFINITY);
+  CHECK(std::isnan(windows_of(some, none, 0.1).front().ratio));
+  CHECK_FALSE(windows_of(some, none, 0.1).front().judged);
+  CHECK(windows_of(infinite, some, 0.1).front().ratio == INFINITY);
+  CHECK(windows_of(std::vector<double>(20, 1), std::vector<double>(20, 1), 0.1).empty());
+}
+
+TEST_CASE("palpate lists windows of 4 s for every predictor, hold asked for or not") {
+  const auto json = ask_program("palpate", "--duration 8.5 --predictor hold,linear").json;
+  for (const char* predictor : {"hold", "linear"}) CHECK(json["predictors"][predictor]["windows"].size() == 2);
+  for (const auto& window : json["predictors"]["hold"]["windows"]) CHECK(window["error_over_hold"] == 1.0);
+  const auto alone = ask_program("palpate", "--duration 8.5 --predictor linear").json;
+  CHECK(alone["predictors"]["linear"]["windows"] == json["predictors"]["linear"]["windows"]);
+  CHECK(alone["predictors"]["linear"]["windows"][1]["start"] == 4.0);
+  CHECK(alone["predictors"]["linear"]["windows"][1]["judged"] == true);
+  CHECK_FALSE(alone["predictors"].contains("hold"));
 }
 
 TEST_CASE("palpate --predictor all runs all, and by default it runs hold, model and ideal") {
