@@ -2,6 +2,7 @@
 // Section 6.1.4: the complete system, Table 6.5.
 #include "scene.hpp"
 #include "section.hpp"
+#include "section_charts.hpp"
 #include "stability_regions.hpp"
 #include "trace_curve.hpp"
 
@@ -52,29 +53,8 @@ Pair run_case(const Case& which, double tool_stiffness) {
   return {palpate(scene, PredictorKind::model), palpate(scene, PredictorKind::hold)};
 }
 
-Curve running_l2(const std::string& name, const std::vector<TracePoint>& trace, double TracePoint::*error) {
-  std::vector<TracePoint> integrated = trace;
-  double sum = 0;
-  for (std::size_t i = 0; i < trace.size(); ++i) {
-    if (i > 0) {
-      const double before = trace[i - 1].*error, now = trace[i].*error;
-      sum += (trace[i].time - trace[i - 1].time) * (before * before + now * now) / 2;
-    }
-    integrated[i].*error = std::sqrt(sum);
-  }
-  return curve(name, integrated, error);
-}
-
-Chart error_chart(const std::string& title, const Pair& pair, double TracePoint::*error) {
-  return {title,
-          {{"error magnitude",
-            "time (s)",
-            "|e|",
-            {curve("with predictor", pair.with.trace, error), curve("without", pair.without.trace, error)}},
-           {"L2 norm of the error",
-            "time (s)",
-            "|e|_L2",
-            {running_l2("with predictor", pair.with.trace, error), running_l2("without", pair.without.trace, error)}}}};
+Chart pair_chart(const std::string& title, const Pair& pair, double TracePoint::*error) {
+  return error_chart(title, {{"with predictor", pair.with}, {"without", pair.without}}, error);
 }
 
 Chart torque_chart(const std::string& title, const PalpationResult& result) {
@@ -86,26 +66,15 @@ Chart torque_chart(const std::string& title, const PalpationResult& result) {
   return {title, {panel}};
 }
 
-Chart motion_chart(const PalpationResult& result) {
-  return {"Fig. 6.16: end effector, k = 200 N/m, T_d = 0.016 s",
-          {{"x from the wall",
-            "time (s)",
-            "m",
-            {curve("end effector", result.trace, &TracePoint::tip),
-             curve("predicted", result.trace, &TracePoint::predicted)}},
-           {"tracking error x - x_hat", "time (s)", "m", {curve("x", result.trace, [](const TracePoint& point) {
-              return point.tip - point.predicted;
-            })}}}};
-}
-
 void add_charts(SectionReport& report, const Case& which, const Pair& pair) {
   const std::string figure = std::to_string(17 + which.number), number = std::to_string(which.number);
-  report.charts.push_back({"fig_6_" + figure, error_chart("Fig. 6." + figure + ": total error, case " + number, pair,
-                                                          &TracePoint::total_error)});
+  report.charts.push_back({"fig_6_" + figure, pair_chart("Fig. 6." + figure + ": total error, case " + number, pair,
+                                                         &TracePoint::total_error)});
   if (which.number == 1) {
-    report.charts.push_back({"fig_6_16", motion_chart(pair.with)});
     report.charts.push_back(
-        {"fig_6_17", error_chart("Fig. 6.17: predictor error, case 1", pair, &TracePoint::prediction_error)});
+        {"fig_6_16", tracking_chart("Fig. 6.16: end effector, k = 200 N/m, T_d = 0.016 s", pair.with)});
+    report.charts.push_back(
+        {"fig_6_17", pair_chart("Fig. 6.17: predictor error, case 1", pair, &TracePoint::prediction_error)});
   }
   if (which.number == 9) {
     report.charts.push_back({"fig_6_27", torque_chart("Fig. 6.27: torque with prediction, case 9", pair.with)});
@@ -120,7 +89,7 @@ void add_case_without_spring(SectionReport& report) {
   report.figures.push_back({"case 9 with k_t = 0: change of the L2 norm",
                             relative_change(pair.with.total.total().l2, pair.without.total.total().l2), -0.07, "1"});
   report.charts.push_back(
-      {"fig_6_29", error_chart("Fig. 6.29: total error, case 9 with k_t = 0", pair, &TracePoint::total_error)});
+      {"fig_6_29", pair_chart("Fig. 6.29: total error, case 9 with k_t = 0", pair, &TracePoint::total_error)});
 }
 
 // Table 6.4's last column and Fig. 6.15.

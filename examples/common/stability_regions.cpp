@@ -4,10 +4,9 @@
 #include "design_cell.hpp"
 #include "design_instances.hpp"
 #include "design_words.hpp"
+#include "section_charts.hpp"
 
 #include <limpid/design/sampled_stability.hpp>
-
-#include <algorithm>
 
 namespace limpid::examples {
 
@@ -32,12 +31,6 @@ double cells(const Region& region) {
 }
 
 std::string of(const Region& region) { return "of " + std::to_string(region.cells.size()) + " cells"; }
-
-std::string file_name(const std::string& figure) {
-  std::string name = "fig_" + figure;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
 
 std::string heading(const PrintedDesign& printed, const std::string& figure) {
   return (figure.empty() ? "Table 6.4" : "Fig. " + figure) + words(", T_d = %g s", printed.T_d);
@@ -119,7 +112,7 @@ void add_constant_gain(SectionReport& report, const DesignSetting& setting, cons
       region_of_one_certificate(design, {.L0 = printed.constant}, setting.nominal, setting.grid), {});
   add(report, plot, name, "sampled predictor stable", region_sampled(design, {.L0 = printed.constant}, setting.grid),
       "exact, for constant tissue");
-  if (!printed.constant_figure.empty()) report.heat_maps.push_back({file_name(printed.constant_figure), plot});
+  if (!printed.constant_figure.empty()) report.heat_maps.push_back({figure_file(printed.constant_figure), plot});
 }
 
 void add_scheduled_gain(SectionReport& report, const DesignSetting& setting, const PrintedDesign& printed,
@@ -137,7 +130,7 @@ void add_scheduled_gain(SectionReport& report, const DesignSetting& setting, con
   add(report, plot, name, "sampled predictor stable", region_sampled(design, printed.scheduled, setting.grid),
       "exact, for constant tissue");
   add_own_schedule(report, design, setting, name);
-  report.heat_maps.push_back({file_name(printed.scheduled_figure), plot});
+  report.heat_maps.push_back({figure_file(printed.scheduled_figure), plot});
 }
 
 }  // namespace limpid::examples
