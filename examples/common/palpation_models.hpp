@@ -24,11 +24,19 @@ template <int Axes>
   law.upper.setZero();
   law.initial.setZero();
   law.initial_gain.setOnes();
-  law.lower.row(0) << 200, 20;
+  law.lower.row(0) << 200, scene.estimation.least_damping;
   law.upper.row(0) << 2000, 40;
   law.initial.row(0) << scene.estimation.stiffness, scene.estimation.damping;
-  law.initial_gain.row(0) << 1e9, 8e6;
-  law.forgetting = 2;
+  law.initial_gain.row(0) << 1e9, scene.estimation.damping_gain;
+  law.forgetting = scene.estimation.forgetting.value_or(2);
+  return settings;
+}
+
+/// Section 6.2.2.
+[[nodiscard]] inline EnvironmentEstimator<OffsetModel>::Settings offset_estimation(const Scene& scene) {
+  auto settings = offset_estimation(scene.estimation.stiffness, scene.estimation.damping);
+  settings.law.lower[1] = scene.estimation.least_offset;
+  settings.law.forgetting = scene.estimation.forgetting.value_or(settings.law.forgetting);
   return settings;
 }
 
@@ -59,15 +67,18 @@ class WithModel {
     return predicting(EnvironmentEstimator<E>(settings), predictor<P, E>(settings.environment, settings.law.initial));
   }
 
-  /// On the press axis: the true tissue, or estimated (k, b) of a linear one, (k, c) of a nonlinear one with b known.
+  /// On the press axis: the true tissue, or estimated (k, b) of a linear one, (k, c) of a nonlinear one with b
+  /// known, or (k, b) where the scene says so.
   [[nodiscard]] AnyPrediction<1> on_press_axis() const {
     const Tissue& tissue = scene_.tissue;
     if (scene_.estimation.known) {
       return is_linear(tissue) ? known<KelvinVoigt<1>>({}, true_parameters<1>(tissue))
                                : known<TissueModel>(model_of(tissue), TissueModel::Theta::Ones());
     }
-    if (estimates_damping(tissue)) return with_contact<KelvinVoigt<1>>(linear_estimation<1>(scene_));
-    return with_contact<OffsetModel>(offset_estimation(scene_.estimation.stiffness, scene_.estimation.damping));
+    if (estimates_damping(tissue) || scene_.estimation.linear) {
+      return with_contact<KelvinVoigt<1>>(linear_estimation<1>(scene_));
+    }
+    return with_contact<OffsetModel>(offset_estimation(scene_));
   }
 
  private:

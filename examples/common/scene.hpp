@@ -59,11 +59,15 @@ struct Disturbances {
   std::uint32_t seed = 1;
 };
 
-/// What the predictor starts from; the boxes, gains and forgetting factors are the thesis's (6.1.3, 6.2.2).
+/// What the predictor starts from; the boxes, gains and forgetting factors are those of 6.1.3 and 6.2.2 unless said.
 struct Estimation {
   double stiffness = 1100;  ///< start of k, N/m
   double damping = 30;      ///< start of b; where the tissue is nonlinear, b as the offset model knows it, N s/m
   bool known = false;       ///< the predictor knows the tissue, not what disturbs it: nothing is estimated
+  bool linear = false;      ///< k and b are estimated of a nonlinear tissue too (7.1.2), and not k and c
+  double least_damping = 20, least_offset = -55;  ///< lower ends of the boxes of b, N s/m, and c, N
+  double damping_gain = 8e6;                      ///< Gamma_e(0) of b
+  std::optional<double> forgetting{};             ///< alpha; nothing: 2 for k and b, 20 for k and c
 };
 
 /// L1, L2, or L0, L1, L2 of a scheduled gain, each a pair (position in N/m, velocity in N s/m).
