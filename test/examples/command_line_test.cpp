@@ -142,7 +142,9 @@ TEST_CASE("palpate draws its plot, or says that gnuplot is absent and writes the
 }
 
 TEST_CASE("reproduce refuses sections that it does not know and cases where there are none") {
-  for (const char* arguments : {"", "--section 9.9", "--section 6.1.1 --case 2", "--section 6.1.4 --case 10"}) {
+  for (const char* arguments :
+       {"", "--section 9.9", "--section 6.1.1 --case 2", "--section 6.1.4 --case 10", "--section 6.2.2 --force-peak 3",
+        "--section 7.1 --force-peak 0", "--section 7.1 --force no_such_file.csv"}) {
     CAPTURE(arguments);
     CHECK(run("reproduce", arguments).code != 0);
   }
@@ -156,5 +158,24 @@ TEST_CASE("reproduce lists its figures with what is printed") {
   REQUIRE(json.is_array());
   for (const auto& figure : json) {
     for (const char* field : {"name", "ours", "printed", "unit"}) CHECK(figure.contains(field));
+  }
+}
+
+TEST_CASE("reproduce lists its runs, every predictor's errors and their change beside what is printed") {
+  const auto path = std::filesystem::temp_directory_path() / "limpid_reproduce_runs.json";
+  REQUIRE(run("reproduce", "--section 6.2.1 --json " + path.string()).code == 0);
+  const nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
+  std::filesystem::remove(path);
+  CHECK_FALSE(json["notes"].empty());
+  CHECK_FALSE(json["figures"].empty());
+  REQUIRE(json["runs"].size() == 1);
+  const auto& row = json["runs"][0];
+  CHECK(row["printed"]["l2_change"] == -0.26);
+  REQUIRE(row["runs"].size() == 3);
+  CHECK_FALSE(row["runs"][0].contains("change"));  // hold
+  for (std::size_t i = 1; i < 3; ++i) {
+    const auto& with = row["runs"][i];
+    const double ratio = with["total_error"]["l2"].get<double>() / row["runs"][0]["total_error"]["l2"].get<double>();
+    CHECK(with["change"]["l2_change"].get<double>() == doctest::Approx(ratio - 1));  // (3.38)
   }
 }
