@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <limpid/signal/adaptive_window_velocity.hpp>
 #include <limpid/signal/filtered_derivative.hpp>
 #include <limpid/signal/low_pass.hpp>
 #include <limpid/signal/quantiser.hpp>
@@ -25,6 +26,12 @@ BENCHMARK(filtered_derivative_3_axes);
 
 void low_pass_3_axes(benchmark::State& state) { run(state, limpid::LowPass<3>({.cutoff = 4})); }
 BENCHMARK(low_pass_3_axes);
+
+// At rest, so that each window is as long as it may be.
+void adaptive_window_velocity_3_axes(benchmark::State& state) {
+  run(state, limpid::AdaptiveWindowVelocity<3>({.band = {4e-4, 4e-4, 4e-4}}));
+}
+BENCHMARK(adaptive_window_velocity_3_axes);
 
 void quantiser_3_axes(benchmark::State& state) {
   limpid::Quantiser<3> quantiser({.step = {4e-4, 4e-4, 4e-4}});

@@ -4,6 +4,7 @@
 #include "time_error/method.hpp"
 #include "time_error/velocity_methods.hpp"
 
+#include <limpid/signal/adaptive_window_velocity.hpp>
 #include <limpid/signal/filtered_derivative.hpp>
 #include <limpid/signal/low_pass.hpp>
 
@@ -100,6 +101,12 @@ FilteredDerivative<axes, Scalar> filter_5_3(const Scalar& tau) {
   return FilteredDerivative<axes, Scalar>({.time_constant = tau});
 }
 
+template <typename Scalar>
+AdaptiveWindowVelocity<axes, 16, Scalar> adaptive_window(WindowFit fit) {
+  using Window = AdaptiveWindowVelocity<axes, 16, Scalar>;
+  return Window({.band = Window::Vector::Constant(Scalar(resolution)), .fit = fit});
+}
+
 /// Difference behind the library's low-pass.
 template <typename Scalar>
 struct SmoothedDifference {
@@ -137,8 +144,10 @@ std::vector<Method> from_counts() {
   filter("difference, low-pass of 4 Hz", false,
          []<typename S>(std::type_identity<S>) { return SmoothedDifference<S>(); });
   filter("difference", false, []<typename S>(std::type_identity<S>) { return Difference<axes, S>(); });
-  filter("adaptive window", false,
-         []<typename S>(std::type_identity<S>) { return AdaptiveWindow<axes, S>(S(resolution)); });
+  filter("adaptive window, best fit", false,
+         []<typename S>(std::type_identity<S>) { return adaptive_window<S>(WindowFit::best); });
+  filter("adaptive window, end fit", false,
+         []<typename S>(std::type_identity<S>) { return adaptive_window<S>(WindowFit::end); });
   filter("observer, third order", false,
          []<typename S>(std::type_identity<S>) { return ThirdOrderObserver<axes, S>(S(1) / S(125)); });
   return methods;

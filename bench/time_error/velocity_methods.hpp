@@ -5,9 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cmath>
-#include <cstddef>
 
 namespace limpid::bench {
 
@@ -68,59 +66,6 @@ class RuledDerivative {
   bool started_ = false;
   Time now_{};
   Vector u_ = Vector::Zero(), y_ = Vector::Zero();
-};
-
-/// First-order adaptive windowing: Janabi-Sharifi, Hayward and Chen, Discrete-time adaptive windowing for velocity
-/// estimation, IEEE Trans. Control Systems Technology 8(6), 2000. The longest window, of up to 16 ticks, whose line
-/// passes all of its samples within the resolution; end-fit: through the first and the last one. Ticks of one length.
-template <int Axes, typename Scalar>
-class AdaptiveWindow {
- public:
-  using Vector = Eigen::Array<Scalar, Axes, 1>;
-
-  explicit AdaptiveWindow(const Scalar& resolution) : resolution_{resolution} {}
-
-  Vector update(Time now, const Vector& u) noexcept {
-    const Scalar rate = known_ > 0 ? Scalar(Scalar{1} / in_seconds<Scalar>(now - now_)) : Scalar{0};
-    now_ = now;
-    newest_ = (newest_ + 1) % size;
-    past_[newest_] = u;
-    Vector y = Vector::Zero();
-    for (int axis = 0; axis < Axes; ++axis) y[axis] = rate * slope(axis);
-    if (known_ + 1 < size) ++known_;
-    return y;
-  }
-
- private:
-  static constexpr std::size_t size = 32, longest = 16;
-
-  [[nodiscard]] const Scalar& ago(std::size_t ticks, int axis) const noexcept {
-    return past_[(newest_ + size - ticks) % size][axis];
-  }
-
-  [[nodiscard]] Scalar slope(int axis) const noexcept {
-    Scalar slope{0};
-    for (std::size_t n = 1; n <= longest && n <= known_; ++n) {
-      const Scalar candidate = (ago(0, axis) - ago(n, axis)) / Scalar(static_cast<int>(n));
-      if (!passes(candidate, n, axis)) break;
-      slope = candidate;
-    }
-    return slope;
-  }
-
-  [[nodiscard]] bool passes(const Scalar& slope, std::size_t n, int axis) const noexcept {
-    using std::abs;
-    for (std::size_t i = 1; i < n; ++i) {
-      const Scalar line = ago(0, axis) - slope * Scalar(static_cast<int>(i));
-      if (abs(Scalar(line - ago(i, axis))) > resolution_) return false;
-    }
-    return true;
-  }
-
-  Scalar resolution_;
-  std::array<Vector, size> past_{};
-  std::size_t newest_ = 0, known_ = 0;
-  Time now_{};
 };
 
 /// Observer of position, velocity and acceleration with a triple pole: the fading-memory filter of second degree,

@@ -25,6 +25,7 @@
 #include <limpid/core/time.hpp>
 #include <limpid/core/unroll.hpp>
 
+#include <limpid/signal/adaptive_window_velocity.hpp>
 #include <limpid/signal/delayed_sampled.hpp>
 #include <limpid/signal/filtered_derivative.hpp>
 #include <limpid/signal/history.hpp>
