@@ -2,6 +2,7 @@
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/safety_limiter.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
+#include <limpid/control/velocity_observer.hpp>
 #include <limpid/robot/omni.hpp>
 
 #include <benchmark/benchmark.h>
@@ -63,6 +64,18 @@ void slotine_li_adaptive(benchmark::State& state) {
 }
 BENCHMARK(slotine_li_adaptive<float>);
 BENCHMARK(slotine_li_adaptive<double>);
+
+template <typename Scalar>
+void velocity_observer(benchmark::State& state) {
+  VelocityObserver<Omni<Scalar>> observer({.theta = Omni<Scalar>::table_5_2()});
+  Inputs<Scalar> in;
+  for (auto _ : state) {
+    in.next();
+    benchmark::DoNotOptimize(observer.update(in.now, in.is.q, in.torque, in.F_h));
+  }
+}
+BENCHMARK(velocity_observer<float>);
+BENCHMARK(velocity_observer<double>);
 
 // Argument: 0 far from every limit, 1 near a joint limit, (5.4) and both edges of the workspace, with slewing.
 template <typename Scalar>

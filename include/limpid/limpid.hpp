@@ -225,6 +225,7 @@
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/control/torque_set.hpp>
 #include <limpid/control/tracking_law.hpp>
+#include <limpid/control/velocity_observer.hpp>
 #include <limpid/control/virtual_coupling.hpp>
 
 #include <limpid/device/arm_hardware.hpp>
