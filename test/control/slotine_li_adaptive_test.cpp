@@ -206,6 +206,26 @@ TEST_CASE("over an interval in which the device had another torque nothing is ad
   CHECK(controller.theta_hat() != Eigen::Vector3d(0.5, 8.0, 0.25));
 }
 
+TEST_CASE("a torque that another component added is no other torque than asked for") {
+  SlotineLiAdaptive<Pendulum<>> controller(pendulum_settings()), twin(pendulum_settings());
+  const JointState<1> is{One(0.3), One(1.0)};
+  const DesiredJoints<1> wanted{One(0.5), One(2.0), One(16.0)};
+  One own = controller.update(0ms, is, wanted, {0, 0, 0}, One(0.0), One(0.0)).tau;
+  (void)twin.update(0ms, is, wanted, {0, 0, 0});
+  for (int k = 1; k < 10; ++k) {
+    const One added(0.1 * k);
+    own = controller.update(k * 1ms, is, wanted, {0, 0, 0}, own + added, added).tau;
+    CHECK(own == twin.update(k * 1ms, is, wanted, {0, 0, 0}).tau);
+  }
+  CHECK(controller.theta_hat() == twin.theta_hat());
+  CHECK(controller.theta_hat() != Eigen::Vector3d(0.5, 8.0, 0.25));
+  const auto before = controller.theta_hat();
+  (void)controller.update(10ms, is, wanted, {0, 0, 0}, own, One(0.5));  // which the device did not have
+  CHECK(controller.theta_hat() == before);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(controller.update(11ms, is, wanted, {0, 0, 0}, own, One(nan)).status == Status::not_finite);
+}
+
 TEST_CASE("a torque that was not had is remembered over a call that is refused") {
   SlotineLiAdaptive<Pendulum<>> controller(pendulum_settings());
   const JointState<1> is{One(0.3), One(1.0)};

@@ -87,6 +87,19 @@ class SlotineLiAdaptive {
     });
   }
 
+  /// The same where another component, such as a FrictionCompensator, adds its torque to what this one gives.
+  /// @param added  what was added to the last call's torque, N m; adapted is where `applied` is the sum, to the last
+  /// bit
+  [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
+                              const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h,
+                              const Joints& applied, const Joints& added) noexcept {
+    return flat<Scalar>([&]() noexcept {
+      const Joints asked = tau_ + added;
+      return adapted(now, is, wanted, F_h,
+                     {is_finite(applied) && is_finite(added), (applied.array() == asked.array()).all()});
+    });
+  }
+
   /// The same for a device that always has the torque that it is asked for.
   [[nodiscard]] Output update(Time now, const JointState<RobotTraits<R>::joints, Scalar>& is,
                               const DesiredJoints<RobotTraits<R>::joints, Scalar>& wanted, const Force& F_h) noexcept {
