@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/control/computed_torque.hpp>
+#include <limpid/control/friction_compensator.hpp>
 #include <limpid/control/safety_limiter.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/control/velocity_observer.hpp>
@@ -76,6 +77,27 @@ void velocity_observer(benchmark::State& state) {
 }
 BENCHMARK(velocity_observer<float>);
 BENCHMARK(velocity_observer<double>);
+
+// Three joints in motion, identification and compensation.
+template <typename Scalar>
+void friction_compensator(benchmark::State& state) {
+  using Compensator = FrictionCompensator<3, Scalar>;
+  typename Compensator::Settings settings;
+  settings.identifier.largest.setConstant(Scalar(0.125));
+  Compensator compensator(settings);
+  Inputs<Scalar> in;
+  Scalar to_and_fro(0.0078125);
+  for (auto _ : state) {
+    in.next();
+    in.is.q.array() += to_and_fro;
+    in.wanted.q.array() += to_and_fro;
+    to_and_fro = -to_and_fro;
+    benchmark::DoNotOptimize(compensator.identify(in.now, in.is, in.torque));
+    benchmark::DoNotOptimize(compensator.update(in.wanted));
+  }
+}
+BENCHMARK(friction_compensator<float>);
+BENCHMARK(friction_compensator<double>);
 
 // Argument: 0 far from every limit, 1 near a joint limit, (5.4) and both edges of the workspace, with slewing.
 template <typename Scalar>

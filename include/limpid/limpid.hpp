@@ -215,6 +215,8 @@
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/disturbance_observer.hpp>
 #include <limpid/control/fault_reason.hpp>
+#include <limpid/control/friction_compensator.hpp>
+#include <limpid/control/friction_identifier.hpp>
 #include <limpid/control/observer_step.hpp>
 #include <limpid/control/omni_safety.hpp>
 #include <limpid/control/passivity_controller.hpp>
