@@ -71,6 +71,7 @@ class AdaptiveWindowVelocity {
     const Time oldest_time = std::exchange(times_[newest_], now);
     const Vector oldest = std::exchange(past_[newest_], u);
     Vector y = Vector::Zero();
+    find_ages();
     for (int axis = 0; axis < Axes; ++axis) y[axis] = slope(axis);
     if (!is_finite(y)) {  // a finite position may still jump too far
       times_[newest_] = oldest_time;
@@ -86,34 +87,57 @@ class AdaptiveWindowVelocity {
  private:
   static constexpr std::size_t size = std::size_t{Longest} + 1;
 
-  // Of the longest window, from the slopes between `low` and `high` that pass all of its positions within the band.
-  [[nodiscard]] Scalar slope(int axis) const noexcept {
+  // Of the positions before the newest one, the newest of them first.
+  struct Ages {
+    std::array<Scalar, std::size_t{Longest}> age, rate;  // s, 1/s
+    std::array<std::size_t, std::size_t{Longest}> at;    // where in `past_`
+  };
+
+  void find_ages() noexcept {
+    std::size_t at = newest_;
+    for (std::size_t i = 0; i < known_; ++i) {
+      at = at > 0 ? at - 1 : size - 1;
+      ages_.at[i] = at;
+      ages_.age[i] = in_seconds<Scalar>(elapsed(times_[newest_], times_[at]));
+      ages_.rate[i] = Scalar{1} / ages_.age[i];
+    }
+  }
+
+  // Intervals of the window: it grows while its slope is between `low` and `high`, those that pass all of its positions
+  // within the band.
+  [[nodiscard]] std::size_t window(int axis) const noexcept {
     const Scalar infinity = std::numeric_limits<Scalar>::infinity();
     const Scalar u = past_[newest_][axis], d = band_[axis];
-    Scalar low = -infinity, high = infinity, end{0}, best{0};
-    Scalar t1{0}, t2{0}, u1{0}, tu{0};  // sums over the window, from the newest position
-    std::size_t at = newest_;
-    for (std::size_t n = 1; n <= known_; ++n) {
-      at = at > 0 ? at - 1 : size - 1;
-      const Scalar t = in_seconds<Scalar>(elapsed(times_[newest_], times_[at])), rise = u - past_[at][axis];
-      const Scalar through = rise / t;
-      if (!(low <= through && through <= high)) break;
-      const Scalar slack = d / t;
-      low = low < through - slack ? Scalar(through - slack) : low;
-      high = through + slack < high ? Scalar(through + slack) : high;
-      t1 += t;
-      t2 += t * t;
-      u1 += rise;
-      tu += t * rise;
-      const Scalar count = Scalar(static_cast<int>(n + 1));
-      end = through;
-      best = (count * tu - t1 * u1) / (count * t2 - t1 * t1);
+    Scalar low = -infinity, high = infinity;
+    std::size_t n = 0;
+    for (; n < known_; ++n) {
+      const Scalar slope = (u - past_[ages_.at[n]][axis]) * ages_.rate[n], slack = d * ages_.rate[n];
+      if (!(low <= slope && slope <= high)) break;
+      low = low < slope - slack ? Scalar(slope - slack) : low;
+      high = slope + slack < high ? Scalar(slope + slack) : high;
     }
-    return fit_ == WindowFit::end ? end : best;
+    return n;
+  }
+
+  [[nodiscard]] Scalar slope(int axis) const noexcept {
+    const std::size_t n = window(axis);
+    if (n == 0) return known_ == 0 ? Scalar{0} : std::numeric_limits<Scalar>::quiet_NaN();
+    const auto rise = [&](std::size_t i) { return Scalar(past_[newest_][axis] - past_[ages_.at[i]][axis]); };
+    if (fit_ == WindowFit::end) return rise(n - 1) / ages_.age[n - 1];
+    Scalar t{0}, u{0}, tt{0}, tu{0};  // sums, from the newest position
+    for (std::size_t i = 0; i < n; ++i) {
+      t += ages_.age[i];
+      u += rise(i);
+      tt += ages_.age[i] * ages_.age[i];
+      tu += ages_.age[i] * rise(i);
+    }
+    const Scalar count = Scalar(static_cast<int>(n + 1));
+    return (count * tu - t * u) / (count * tt - t * t);
   }
 
   Vector band_;
   WindowFit fit_;
+  Ages ages_{};  // of the last call
   std::array<Time, size> times_{};
   std::array<Vector, size> past_;
   std::size_t newest_ = 0, known_ = 0;  // known_: positions before the next one
