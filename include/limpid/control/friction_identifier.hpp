@@ -66,23 +66,8 @@ class FrictionIdentifier {
   using Settings = FrictionIdentifierSettings<Joints, Scalar>;
 
   /// @throws std::invalid_argument  where a setting cannot serve
-  explicit FrictionIdentifier(const Settings& settings) : settings_{settings} {
-    const auto positive = [](const auto& v) { return is_finite(v) && (v > Scalar(0)).all(); };
-    const auto& s = settings_;
-    expect(positive(s.largest), "FrictionIdentifier: largest", "finite and > 0", s.largest);
-    expect(is_finite(s.largest_viscous) && (s.largest_viscous >= Scalar(0)).all(),
-           "FrictionIdentifier: largest_viscous", "finite and >= 0", s.largest_viscous);
-    expect((s.start >= Scalar(0)).all() && (s.start <= s.largest).all(), "FrictionIdentifier: start", "of [0, largest]",
-           s.start);
-    expect(positive(s.presliding), "FrictionIdentifier: presliding", "finite and > 0", s.presliding);
-    expect(is_finite(s.encoder_step) && (s.encoder_step >= Scalar(0)).all(), "FrictionIdentifier: encoder_step",
-           "finite and >= 0", s.encoder_step);
-    check_positive(s.bandwidth, "FrictionIdentifier: bandwidth");
-    check_positive(s.memory, "FrictionIdentifier: memory");
-    check_positive(s.prior, "FrictionIdentifier: prior");
-    expect(positive(Vector(s.prior * s.largest.square())), "FrictionIdentifier: largest", "a square in range",
-           s.largest);
-    found_.coulomb = s.start;
+  explicit FrictionIdentifier(const Settings& settings) : settings_{checked(settings)} {
+    found_.coulomb = settings.start;
   }
 
   /// @param friction  torque against the joints beyond the robot's model, N m
@@ -117,6 +102,24 @@ class FrictionIdentifier {
     std::array<Scalar, 3> z_lag{}, v_lag{};    // W z and W q', last
     Scalar zz{0}, zv{0}, vv{0}, zy{0}, vy{0};  // information, (N m)^2 rad
   };
+
+  static const Settings& checked(const Settings& s) {
+    const auto positive = [](const auto& v) { return is_finite(v) && (v > Scalar(0)).all(); };
+    expect(positive(s.largest), "FrictionIdentifier: largest", "finite and > 0", s.largest);
+    expect(is_finite(s.largest_viscous) && (s.largest_viscous >= Scalar(0)).all(),
+           "FrictionIdentifier: largest_viscous", "finite and >= 0", s.largest_viscous);
+    expect((s.start >= Scalar(0)).all() && (s.start <= s.largest).all(), "FrictionIdentifier: start", "of [0, largest]",
+           s.start);
+    expect(positive(s.presliding), "FrictionIdentifier: presliding", "finite and > 0", s.presliding);
+    expect(is_finite(s.encoder_step) && (s.encoder_step >= Scalar(0)).all(), "FrictionIdentifier: encoder_step",
+           "finite and >= 0", s.encoder_step);
+    check_positive(s.bandwidth, "FrictionIdentifier: bandwidth");
+    check_positive(s.memory, "FrictionIdentifier: memory");
+    check_positive(s.prior, "FrictionIdentifier: prior");
+    expect(positive(Vector(s.prior * s.largest.square())), "FrictionIdentifier: largest", "a square in range",
+           s.largest);
+    return s;
+  }
 
   static void check_positive(const Scalar& value, const char* name) {
     expect(is_finite(value) && value > Scalar(0), name, "finite and > 0", value);
