@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <limpid/control/compensated_tracking.hpp>
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/friction_compensator.hpp>
 #include <limpid/control/safety_limiter.hpp>
@@ -98,6 +99,24 @@ void friction_compensator(benchmark::State& state) {
 }
 BENCHMARK(friction_compensator<float>);
 BENCHMARK(friction_compensator<double>);
+
+template <typename Scalar>
+void compensated_tracking(benchmark::State& state) {
+  using Tracking = CompensatedTracking<Omni<Scalar>>;
+  typename Tracking::Settings settings;
+  settings.controller.Lambda = Vector<Scalar>(Scalar(12), Scalar(13), Scalar(6));
+  settings.controller.Kd = Vector<Scalar>(Scalar(0.25), Scalar(0.125), Scalar(0.0625));
+  settings.controller.Gamma.setConstant(Scalar(1e-9));
+  settings.controller.theta0 = settings.observer.theta = Omni<Scalar>::table_5_2();
+  settings.friction.identifier.largest.setConstant(Scalar(0.125));
+  Tracking tracking(settings);
+  Inputs<Scalar> in;
+  for (auto _ : state) {
+    in.next();
+    benchmark::DoNotOptimize(tracking.update(in.now, in.is, in.wanted, in.F_h, in.torque));
+  }
+}
+BENCHMARK(compensated_tracking<double>);
 
 // Argument: 0 far from every limit, 1 near a joint limit, (5.4) and both edges of the workspace, with slewing.
 template <typename Scalar>

@@ -212,6 +212,7 @@
 #include <limpid/robot/serial_chain.hpp>
 #include <limpid/robot/serial_chain_pose.hpp>
 
+#include <limpid/control/compensated_tracking.hpp>
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/disturbance_observer.hpp>
 #include <limpid/control/fault_reason.hpp>

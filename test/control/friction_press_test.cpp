@@ -2,10 +2,9 @@
 // A hand presses the realistic Omni into tissue A of 6.2.2, 3 N at half a hertz, sampled every T_d and seen T_d later:
 // what the tip makes of the true signal with friction compensated, beside what it makes of the held one at the gains
 // that are best for that, without.
-#include <limpid/control/friction_compensator.hpp>
+#include <limpid/control/compensated_tracking.hpp>
 #include <limpid/control/safety_limiter.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
-#include <limpid/control/velocity_observer.hpp>
 #include <limpid/device/simulated_omni.hpp>
 #include <limpid/environment/smooth_bilinear.hpp>
 #include <limpid/environment/virtual_tool.hpp>
@@ -34,7 +33,7 @@ struct Scene {
   Time duration;
   Duration period;
   bool ideal;                // the true signal in place of the held one
-  bool compensated;          // with the observer's state and the compensator
+  bool compensated;          // by CompensatedTracking; else SlotineLiAdaptive on the device's rates
   double Kd, Lambda, Gamma;  // times (5.6), (5.7)
 };
 
@@ -45,20 +44,22 @@ struct Found {
   Eigen::Array3d friction;
 };
 
-SlotineLiAdaptive<Omni<>> controller_of(const Scene& scene) {
+SlotineLiAdaptive<Omni<>>::Settings controller_of(const Scene& scene) {
   Omni<>::Parameters Gamma;
   Gamma << 0.01, 0.002, 0.002, 0.0005, 0.001, 0.001, 0.02, 0.02, 0.02;
-  return SlotineLiAdaptive<Omni<>>({.Lambda = scene.Lambda * Three(2.8, 3.0, 1.5),
-                                    .Kd = scene.Kd * Three(0.4, 0.28, 0.10),
-                                    .Gamma = scene.Gamma * Gamma,
-                                    .theta0 = Omni<>::table_5_2()});
+  return {.Lambda = scene.Lambda * Three(2.8, 3.0, 1.5),
+          .Kd = scene.Kd * Three(0.4, 0.28, 0.10),
+          .Gamma = scene.Gamma * Gamma,
+          .theta0 = Omni<>::table_5_2()};
 }
 
-FrictionCompensator<3> compensator() {
+CompensatedTracking<Omni<>>::Settings compensated(const Scene& scene) {
   const Eigen::Array3d table_5_1 = Omni<>{}.limits().static_friction.array();
-  return FrictionCompensator<3>({.identifier = {.largest = 1.5 * table_5_1, .start = table_5_1, .bandwidth = 110},
-                                 .presliding = Eigen::Array3d::Constant(6.2e-4),
-                                 .share = 0.95});
+  return {.controller = controller_of(scene),
+          .observer = {.theta = Omni<>::table_5_2(), .bandwidth = 110},
+          .friction = {.identifier = {.largest = 1.5 * table_5_1, .start = table_5_1},
+                       .presliding = Eigen::Array3d::Constant(6.2e-4),
+                       .share = 0.95}};
 }
 
 Found press(const Scene& scene) {
@@ -71,14 +72,13 @@ Found press(const Scene& scene) {
   DelayedSampled<ToolState<1>> sampled({.period = scene.period, .delay = scene.period});
   HoldPredictor<1> hold;
   SimulatedOmni<> arm({.realism = Realism::realistic});
-  VelocityObserver<Omni<>> observer({.theta = Omni<>::table_5_2(), .bandwidth = 110});
-  auto friction = compensator();
-  auto controller = controller_of(scene);
+  CompensatedTracking<Omni<>> tracking(compensated(scene));
+  SlotineLiAdaptive<Omni<>> plain(controller_of(scene));
   SafetyLimiter<Omni<>> limiter({});
   const OmniKinematics<double> kinematics{Omni<>{}};
   ErrorNorms<3> total;
   Found found{};
-  Three applied = Three::Zero(), added = applied, least = start, most = start;
+  Three applied = Three::Zero(), least = start, most = start;
   for (Time now{0}; now <= scene.duration; now += 1ms) {
     const Three F_h(scene.force(in_seconds(now)), 0, 0);
     const ToolState<1> tool = tissue.advance(now, Ones(F_h[0])).value;
@@ -89,17 +89,12 @@ Found press(const Scene& scene) {
 
     (void)arm.advance(now, F_h);
     const auto measured = arm.read(now);
-    const auto observed = observer.update(now, measured.q, applied, F_h);
-    const auto state = scene.compensated ? observed.state : measured.joint_state();
     const auto wanted = kinematics.inverse(wall + Three(signal.x[0], 0, 0), Three(signal.v[0], 0, 0),
                                            Three(signal.a[0], 0, 0), measured.q);
-    const Three own = controller.update(now, state, wanted, F_h, applied, added).tau;
-    added.setZero();
-    if (scene.compensated) {
-      (void)friction.identify(now, observed.state, -observed.disturbance);
-      added = friction.update(wanted).tau;
-    }
-    const auto [torque, status] = limiter.limit(now, measured.joint_state(), own + added);
+    const auto is = measured.joint_state();
+    const Three tau = scene.compensated ? tracking.update(now, is, wanted, F_h, applied).tau
+                                        : plain.update(now, is, wanted, F_h, applied).tau;
+    const auto [torque, status] = limiter.limit(now, is, tau);
     REQUIRE(!has(status, Status::fault));
     (void)arm.write(torque);
     found.chatter += (torque.value() - applied).cwiseAbs().mean() * 1e-3 / in_seconds(scene.duration);
@@ -115,7 +110,7 @@ Found press(const Scene& scene) {
   }
   found.total = total.total();
   found.motion = (most - least).maxCoeff();
-  found.friction = friction.friction().coulomb;
+  found.friction = tracking.friction().coulomb;
   return found;
 }
 

@@ -29,14 +29,15 @@ namespace limpid {
 ///     V' = -delta' K_d delta + delta' (tau - tau_friction) <= -lambda_min(K_d) |delta|^2 + |delta| epsilon
 ///
 /// so that V falls wherever |delta| > epsilon/lambda_min(K_d), epsilon the norm of what the compensation misses of the
-/// friction: at most `largest` + f_c a joint, when both point against each other; f_c - share f_c^ where the joint
-/// slides as it is wanted to, which is less than the f_c without it because share < 1. So delta ends in a ball, not at
-/// zero, given bounds on theta_hat (`lower`, `upper`); these hold for any z and any f_c^ in its range, identified right
-/// or wrong. That is the continuous law: ticks, encoder steps and the lag of a rate are left to simulation
-/// (test/control/friction_press_test.cpp).
+/// friction: at most `largest` + f_c a joint, when both point against each other; |f_c - share f_c^| where the joint
+/// slides as it is wanted to, which is less than the f_c without compensation as long as f_c^ < 2 f_c/share. So delta
+/// ends in a ball, not at zero, given bounds on theta_hat (`lower`, `upper`); and that for any z and any f_c^ in its
+/// range, identified right or wrong. That is the continuous law with exact rates: ticks, encoder steps and an
+/// observer's error are left to simulation (test/control/friction_press_test.cpp).
 ///
-/// No limit cycle comes from it: the torque depends on q_e alone, with f_c^, which only motion beyond an encoder step
-/// changes. A constant q_e has a constant torque, of less than the friction that holds the joint.
+/// For a given q_e it closes no loop but that of f_c^, which only motion beyond an encoder step changes: under a q_e at
+/// rest the torque is constant, and where f_c^ <= f_c less than the friction that holds the joint. So it drives no
+/// limit cycle by itself; a q_e that a hand and a tissue close with the arm is not covered.
 /// @tparam Joints  number of joints
 /// @realtime       no allocation, no throw; an exponential a joint, 4 more and some 40 flops in `identify`
 template <int Joints = 3, Real Scalar = double>
