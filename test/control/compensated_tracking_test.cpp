@@ -7,8 +7,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 using limpid::CompensatedTracking;
@@ -37,12 +39,22 @@ Tracking::Settings some_settings() {
   return settings;
 }
 
-const Three centre(0.1, 0.8, -1.3);
+const Three centre(0.1, 0.8, -1.3), none = Three::Zero();
 
 JointState<3> moved(int k) { return {centre + 1e-3 * k * Three(1, -1, 1), Three(9, 9, 9)}; }
 
 DesiredJoints<3> wanted(int k) {
   return {centre + 1.1e-3 * k * Three(1, -1, 1), Three(1.1, -1.1, 1.1), Three(0, 0, 0)};
+}
+
+// Half a tick after tick k, with an entry of one input replaced.
+Tracking::Output update_with(Tracking& tracking, int k, Three applied, std::size_t input, double entry) {
+  auto is = moved(k);
+  auto to = wanted(k);
+  Three F_h(1, 0, 0);
+  const std::array<Three*, 6> inputs{&is.q, &to.q, &to.qdot, &to.qddot, &F_h, &applied};
+  (*inputs[input])[k % 3] = entry;
+  return tracking.update(k * 1ms + 500us, is, to, F_h, applied);
 }
 
 }  // namespace
@@ -77,20 +89,33 @@ TEST_CASE("an input that is not finite and a clock that stands change nothing") 
     const Three before = tau;
     tau = tracking.update(k * 1ms, moved(k), wanted(k), {1, 0, 0}, before).tau;
     REQUIRE(tau == twin.update(k * 1ms, moved(k), wanted(k), {1, 0, 0}, before).tau);
-    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
-      for (int input = 0; input < 6; ++input) {
-        auto is = moved(k);
-        auto to = wanted(k);
-        Three F_h(1, 0, 0), applied = tau;
-        Three* const inputs[] = {&is.q, &to.q, &to.qdot, &to.qddot, &F_h, &applied};
-        (*inputs[input])[k % 3] = bad;
-        const auto [kept, status] = tracking.update(k * 1ms + 500us, is, to, F_h, applied);
+    for (std::size_t input = 0; input < 6; ++input) {
+      for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
+        const auto [kept, status] = update_with(tracking, k, tau, input, bad);
         CHECK(status == Status::not_finite);
         CHECK(kept == tau);
       }
     }
     CHECK(tracking.update(k * 1ms, moved(k), wanted(k + 1), {1, 0, 0}, tau).status == Status::clock_backwards);
   }
+}
+
+TEST_CASE("while the joints are wanted to rest nothing is adapted, however far they are from there") {
+  auto settings = some_settings();
+  settings.rest = 0.01;
+  Tracking tracking(settings);
+  Three tau = Three::Zero();
+  for (int k = 0; k < 100; ++k) {
+    tau =
+        tracking.update(k * 1ms, {centre, none}, {centre + Three(0.1, 0.1, 0.1), Three(0, 0.0099, 0), none}, none, tau)
+            .tau;
+  }
+  CHECK(tracking.theta_hat() == settings.controller.theta0);
+  for (int k = 100; k < 110; ++k) {
+    tau = tracking.update(k * 1ms, {centre, none}, {centre + Three(0.1, 0.1, 0.1), Three(0, 0.02, 0), none}, none, tau)
+              .tau;
+  }
+  CHECK(tracking.theta_hat() != settings.controller.theta0);
 }
 
 TEST_CASE("no call allocates") {
@@ -102,6 +127,9 @@ TEST_CASE("no call allocates") {
 
 TEST_CASE("what a part refuses is refused by the part's name") {
   auto settings = some_settings();
+  settings.rest = -1;
+  CHECK_THROWS_WITH_AS(Tracking{settings}, "CompensatedTracking: rest: expected finite and >= 0, got -1",
+                       std::invalid_argument);
   settings.observer.bandwidth = -1;
   CHECK_THROWS_WITH_AS(Tracking{settings}, "VelocityObserver: bandwidth: expected finite and > 0, got -1",
                        std::invalid_argument);

@@ -206,6 +206,20 @@ TEST_CASE("over an interval in which the device had another torque nothing is ad
   CHECK(controller.theta_hat() != Eigen::Vector3d(0.5, 8.0, 0.25));
 }
 
+TEST_CASE("an interval that is to be skipped is not adapted over, and the one after it is") {
+  SlotineLiAdaptive<Pendulum<>> controller(pendulum_settings()), twin(pendulum_settings());
+  const JointState<1> is{One(0.3), One(1.0)};
+  const DesiredJoints<1> wanted{One(0.5), One(2.0), One(16.0)};
+  (void)controller.update(0ms, is, wanted, {0, 0, 0});
+  controller.skip_adaptation();
+  (void)controller.update(1ms, is, wanted, {0, 0, 0});
+  CHECK(controller.theta_hat() == Eigen::Vector3d(0.5, 8.0, 0.25));
+  (void)controller.update(2ms, is, wanted, {0, 0, 0});
+  (void)twin.update(1ms, is, wanted, {0, 0, 0});
+  (void)twin.update(2ms, is, wanted, {0, 0, 0});
+  CHECK(controller.theta_hat() == twin.theta_hat());
+}
+
 TEST_CASE("a torque that another component added is no other torque than asked for") {
   SlotineLiAdaptive<Pendulum<>> controller(pendulum_settings()), twin(pendulum_settings());
   const JointState<1> is{One(0.3), One(1.0)};

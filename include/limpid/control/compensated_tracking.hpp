@@ -4,6 +4,7 @@
 #include <limpid/control/friction_compensator.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/control/velocity_observer.hpp>
+#include <limpid/core/expect.hpp>
 #include <limpid/core/finite.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
@@ -19,9 +20,10 @@ namespace limpid {
 /// What theory covers is said there, part by part. The observer's error adds to epsilon: (4.7) with delta^ in place of
 /// delta, in which K_d (delta^ - delta) and what phi_r makes of it are bounded where the observer's error is.
 ///
-/// Adaptation integrates what static friction leaves of delta while a joint sticks, and creeps: keep Gamma small, a
-/// tenth of (5.7) or none. Gains of the Omni that a search found for a share of .95, a presliding of 6.2e-4 rad and a
-/// bandwidth of 110 rad/s: .57 K_d and 4.45 Lambda of (5.6).
+/// Adaptation would integrate what static friction leaves of delta while the arm sticks, until it slips, again and
+/// again: a limit cycle, which was seen. So nothing is adapted while all joints are wanted to rest. Gains of the Omni
+/// that a search found for a share of .95, a presliding of 6.2e-4 rad and a bandwidth of 110 rad/s: .57 K_d and 4.45
+/// Lambda of (5.6), a tenth of (5.7)'s Gamma.
 /// @tparam R  a Robot of n joints and p parameters
 /// @realtime  update: no allocation, no throw
 template <Robot R>
@@ -39,6 +41,7 @@ class CompensatedTracking {
     typename Controller::Settings controller{};
     typename Observer::Settings observer{};
     typename Compensator::Settings friction{};  ///< its identifier takes the observer's bandwidth
+    Scalar rest = Scalar(1) / Scalar(100);      ///< rate below which a joint is wanted to rest, rad/s, >= 0
   };
 
   struct Output {
@@ -48,7 +51,12 @@ class CompensatedTracking {
 
   /// @throws std::invalid_argument  where a part refuses its settings
   explicit CompensatedTracking(const Settings& settings)
-      : controller_(settings.controller), observer_(settings.observer), compensator_(friction_of(settings)) {}
+      : controller_(settings.controller),
+        observer_(settings.observer),
+        compensator_(friction_of(settings)),
+        rest_{settings.rest} {
+    expect(is_finite(rest_) && rest_ >= Scalar(0), "CompensatedTracking: rest", "finite and >= 0", rest_);
+  }
 
   /// The torque that moves the joints from where they are toward `wanted` under the operator's force F_h, N, base
   /// frame.
@@ -60,6 +68,7 @@ class CompensatedTracking {
     if (!is_finite(wanted)) return {tau_, Status::not_finite};
     const auto observed = observer_.update(now, is.q, applied, F_h);
     if (observed.status != Status::ok) return {tau_, observed.status};
+    if ((wanted.qdot.array().abs() < rest_).all()) controller_.skip_adaptation();
     const auto own = controller_.update(now, observed.state, wanted, F_h, applied, added_);
     const Status learnt = compensator_.identify(now, observed.state, -observed.disturbance);
     const auto compensation = compensator_.update(wanted);
@@ -84,6 +93,7 @@ class CompensatedTracking {
   Controller controller_;
   Observer observer_;
   Compensator compensator_;
+  Scalar rest_;
   Joints added_ = Joints::Zero();  // the compensator's part of
   Joints tau_ = Joints::Zero();    // the last good torque
 };

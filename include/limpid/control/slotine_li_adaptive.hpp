@@ -106,6 +106,10 @@ class SlotineLiAdaptive {
     return flat<Scalar>([&]() noexcept { return adapted(now, is, wanted, F_h, {true, true}); });
   }
 
+  /// Nothing is adapted from the last call to the next one: for an error that does not speak of the parameters, such as
+  /// that of a joint that sticks.
+  void skip_adaptation() noexcept { obeyed_ = false; }
+
   [[nodiscard]] Parameters theta_hat() const noexcept { return of(theta_hat_); }
 
  private:
