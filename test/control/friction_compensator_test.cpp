@@ -12,7 +12,6 @@
 
 using limpid::DesiredJoints;
 using limpid::FrictionCompensator;
-using limpid::JointState;
 using limpid::Status;
 using namespace std::chrono_literals;
 

@@ -12,7 +12,6 @@
 
 using limpid::FrictionIdentifier;
 using limpid::in_seconds;
-using limpid::JointState;
 using limpid::Status;
 using limpid::Time;
 using limpid::turned;
