@@ -20,8 +20,8 @@ namespace limpid {
 /// Joint rates from joint angles, the dynamics (3.15) and the torques that the arm is known to have: no lag behind the
 /// motion that these explain. What they do not explain is estimated with it, as an acceleration alpha:
 ///
-///     q^' = q'^ + 3 w e        q'^' = H^-1 (tau + J' F_h - (C + B) q'^ - tau_g) + alpha^ + 3 w^2 e        alpha^' =
-///     w^3 e
+///     q^' = q'^ + 3 w e        q'^' = H^-1 (tau + J' F_h - (C + B) q'^ - tau_g) + alpha^ + 3 w^2 e
+///     alpha^' = w^3 e
 ///
 /// with e = q - q^, and H, C, J and tau_g at the measured q, of a tick its middle. The errors then follow
 ///
