@@ -256,6 +256,19 @@ TEST_CASE("joints beyond the limits go to the nearest ones within them") {
   CHECK(by_cables > 1'000);
 }
 
+TEST_CASE("where joint 3 alone leaves the range of float, by the difference of its links, the answer stays finite") {
+  const OmniKinematics<float> kinematics{Omni<float>()};
+  const Eigen::Vector3f zero = Eigen::Vector3f::Zero(), near(0, 0.8F, -1.3F);
+  const auto pulled =
+      kinematics.inverse({0.125784248F, -0.0934547633F, 0.128365308F}, zero, {-5.01506561e37F, 0, 0}, near);
+  CHECK(is_finite(pulled));
+  CHECK(has(pulled.status, Status::not_finite));
+  const auto thrown =
+      kinematics.inverse({0.189753473F, 0.0665010661F, -0.0850099102F}, {0, 2.54617316e18F, 0}, zero, near);
+  CHECK(is_finite(thrown));
+  CHECK(has(thrown.status, Status::not_finite));
+}
+
 TEST_CASE_TEMPLATE("joints on their limits are not beyond them for a rounding", Scalar, float, double, long double) {
   using Joints = Eigen::Matrix<Scalar, 3, 1>;
   const Omni<Scalar> robot;

@@ -87,11 +87,12 @@ class OmniLanes {
     const Lane along_links = C_o * inward + S_o * spread<2>(a_arm) + c3 * pull + other(pull);
     const Lane dw = joint_1(along_links, around(a_arm) - coriolis) * scale;
 
+    const Scalar w3 = w.v[2] - w.v[1], dw3 = dw.v[2] - dw.v[1];
     motion.at_limits = are_beyond_limits(q);
     q.store(q.v[3], motion.q);
-    w.store(w.v[2] - w.v[1], motion.qdot);
-    dw.store(dw.v[2] - dw.v[1], motion.qddot);
-    return are_finite(dw.array());  // else v or a is beyond any range
+    w.store(w3, motion.qdot);
+    dw.store(dw3, motion.qddot);
+    return are_finite(dw.array()) && (w3 + dw3) * Scalar(0) == Scalar(0);  // else v or a is beyond any range
   }
 
  private:
