@@ -44,6 +44,7 @@ struct Scene {
   // Measured less replayed, from a state.
   Vector misfit(const State& s) {
     REQUIRE(replay->walk(belief.law, s, memory, sample));
+    replay->compare(belief.law, s, sample, evaluation);
     REQUIRE(replay->linearise(belief.law, s, sample, evaluation));
     return evaluation.y;
   }

@@ -51,7 +51,7 @@ TEST_CASE("a linear tissue's stiffness and damping are learnt from four seconds 
   elastic.relaxation = false;  // a branch of a short lag and a damper are hard to tell apart
   const auto learner = std::make_unique<Learner>(elastic);
   teach(*learner, VirtualTool<Env>(plant(Env{}, {800, 30})), 4s, 32ms);
-  // to a thousandth: the samples are exact, the replay's method and its trapezoidal derivative are not
+  // to a thousandth: the samples are exact, the replay's method and its tangents are not
   CHECK(learner->law().elastic(learner->state(), 0.002).slope == doctest::Approx(800).epsilon(1e-3));
   CHECK(learner->law().damping(learner->state(), 0.002) == doctest::Approx(30).epsilon(1e-3));
 }

@@ -79,6 +79,7 @@ class TissueLearner {
     if (!replay_.find_steps(law(), forces, taken_, sample.taken)) return restart(sample);
     const bool near = replay_.walk(law(), belief_.s, memory_, sample);
     cover(sample);
+    replay_.compare(law(), belief_.s, sample, here_);
     if (!near || !replay_.linearise(law(), belief_.s, sample, here_)) return restart(sample);
     weigh(sample);
     iterate(sample);
@@ -221,9 +222,10 @@ class TissueLearner {
     Scalar part{1};
     for (int half = 0; half < 6; ++half, part /= Scalar{2}) {
       const State trial_u = u_ + part * (u - u_), trial = si_ + part * (target - si_);
-      if (!replay_.walk(law(), trial, memory_, z) || !replay_.linearise(law(), trial, z, there_)) continue;
+      if (!replay_.walk(law(), trial, memory_, z)) continue;
+      replay_.compare(law(), trial, z, there_);
       const Scalar then = cost(weight, trial_u, trial, there_.y);
-      if (!(then <= now)) continue;
+      if (!(then <= now) || !replay_.linearise(law(), trial, z, there_)) continue;
       std::swap(here_, there_);
       si_ = trial;
       u_ = trial_u;

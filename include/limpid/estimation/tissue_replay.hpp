@@ -99,13 +99,16 @@ class TissueReplay {
     return range;
   }
 
-  /// What the end of the path that was kept has of s.
+  /// What is measured less what the path that was kept comes to.
+  void compare(const Law& law, const State& s, const AxisSample<Scalar>& z, Evaluation& e) const noexcept {
+    const Point& p = e.end = path_[step_count_];
+    e.y = {z.x - p.x, z.v - p.v, z.force - law.force(s, at_sample(z))};
+  }
+
+  /// What the end of the path that was kept has of s, beside `compare`.
   /// @return  false where that has no bounds
   [[nodiscard]] bool linearise(const Law& law, const State& s, const AxisSample<Scalar>& z, Evaluation& e) noexcept {
-    const Point& p = e.end = path_[step_count_];
-    const Point at{z.x, z.v, p.residual, p.memory};
-    differentiate(law, s, at, e);
-    e.y = {z.x - p.x, z.v - p.v, z.force - law.force(s, at)};
+    differentiate(law, s, at_sample(z), e);
     return (e.H.array().abs() < Scalar(1'000'000)).all() && is_finite(e.y);
   }
 
@@ -120,6 +123,12 @@ class TissueReplay {
     const Scalar fade = alike ? steps_[step_count_ - 1].fade : law.residual_left(h);
     steps_[step_count_++] = {h, F0, F1, fade};
     residual_left_ *= fade;
+  }
+
+  // Where and how the sample was, with what the path has left in memory.
+  [[nodiscard]] Point at_sample(const AxisSample<Scalar>& z) const noexcept {
+    const Point& end = path_[step_count_];
+    return {z.x, z.v, end.residual, end.memory};
   }
 
   // d(x, v, F_e)/ds, backwards along the path, and the force's own at the sample.
