@@ -179,8 +179,8 @@ class TissueLearner {
     const Scalar variance = scale_.variance(S + W_, here_.y, effect, T);
     if (!(variance > Scalar{0})) return;
     belief_.add_rank_one(whole, variance);
-    belief_.project_rows(here_.H, PH_);
-    S = here_.H.transpose() * PH_;
+    PH_ += whole * (variance * effect).transpose();
+    S += effect * (variance * effect).transpose();
   }
 
   // Gauss-Newton from the prior belief_.s to si_, in here_; u with si = s + P u gives the prior's cost without P^-1.
