@@ -49,7 +49,7 @@ template <int Axes>
 }
 
 /// Predictors of a kind, `Kind::Predictor<E, Known>` or `Kind::Predictor<E, Estimated>`, by their environment E;
-/// `Kind::complete` sets what only they have.
+/// `Kind::complete`, where there is one, sets what only they have.
 template <typename Kind>
 class WithModel {
  public:
@@ -86,7 +86,7 @@ class WithModel {
   [[nodiscard]] P predictor(const E& environment, const EnvironmentTheta<E>& theta) const {
     constexpr int axes = EnvironmentTraits<E>::axes;
     typename P::Settings settings{.environment = environment, .tool = tool_of<axes>(scene_), .theta = theta};
-    Kind::complete(settings, scene_);
+    if constexpr (requires { Kind::complete(settings, scene_); }) Kind::complete(settings, scene_);
     return P(settings);
   }
 

@@ -11,9 +11,6 @@ namespace {
 struct ReplayKind {
   template <Environment E, typename Parameters>
   using Predictor = ReplayPredictor<E, Tool<1>, Parameters, prediction_history>;
-
-  template <typename Settings>
-  static void complete(Settings&, const Scene&) {}
 };
 
 }  // namespace

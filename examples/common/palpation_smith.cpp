@@ -11,9 +11,6 @@ namespace {
 struct SmithKind {
   template <Environment E, typename Parameters>
   using Predictor = SmithPredictor<E, Tool<1>, Parameters, prediction_history>;
-
-  template <typename Settings>
-  static void complete(Settings&, const Scene&) {}
 };
 
 }  // namespace
