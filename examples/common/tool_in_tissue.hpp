@@ -23,7 +23,7 @@ struct UndisturbedForce {
 struct TissueChange {
   double step = 1;            ///< factor on the stiffness from some instant on
   double softening = 0;       ///< of the stiffness, 1/s
-  double relaxation = 0;      ///< K of a Maxwell branch q' = K v - q / lag, N/m
+  double relaxation = 0;      ///< K of a Maxwell branch q' = K v - q / lag, N/m; K v only where it pushes
   double lag = 1;             ///< s
   double damping_growth = 0;  ///< N s/m per m of depth
   double friction = 0;        ///< Coulomb's, N
@@ -54,8 +54,18 @@ class TissueForce {
 
   /// @param q  force of the Maxwell branch, N
   [[nodiscard]] double operator()(double t, double x, double v, double q) const {
+    return touches(x) ? touching(t, x, v, q) : 0;
+  }
+
+  /// Whether contact has begun at a depth.
+  [[nodiscard]] bool touches(double x) const { return !undisturbed_.edge || x > *undisturbed_.edge; }
+
+  /// Whether it begins at an edge, and cannot pull.
+  [[nodiscard]] bool one_sided() const { return undisturbed_.edge.has_value(); }
+
+  /// The same where contact has begun.
+  [[nodiscard]] double touching(double t, double x, double v, double q) const {
     const double known = std::clamp(x, lower_, upper_);
-    if (undisturbed_.edge && x <= *undisturbed_.edge) return 0;
     double elastic = undisturbed_.elastic(known);
     if (x != known) elastic += (x < known ? lower_slope_ : upper_slope_) * (x - known);
     const double stiffness = (t >= step_at_ ? change_.step : 1) * (1 - change_.softening * t);
@@ -87,7 +97,8 @@ class TissueForce {
   double lower_slope_ = 0, upper_slope_ = 0;
 };
 
-/// The tool (3.29) in a tissue, by steps of Runge and Kutta's fourth order; Coulomb friction holds it where it can.
+/// The tool (3.29) in a tissue, by steps of Runge and Kutta's fourth order, parted where contact begins or ends: there
+/// the force jumps. Coulomb friction holds the tool where it can.
 class ToolInTissue {
  public:
   struct State {
@@ -139,7 +150,7 @@ class ToolInTissue {
       s.stuck = false;
       direction = net > 0 ? 1 : -1;
     }
-    const State next = moved(s, t, before, after, h, F_c * direction);
+    const State next = past_edge(s, t, before, after, h, F_c * direction);
     const bool turned = F_c > 0 && next.v * direction < 0;
     s = next;
     if (turned && std::abs(after - resisting(t + h, s)) <= F_c) {
@@ -148,12 +159,36 @@ class ToolInTissue {
     }
   }
 
-  [[nodiscard]] State moved(const State& s, double t, double before, double after, double h, double friction) const {
+  [[nodiscard]] State past_edge(const State& s, double t, double before, double after, double h,
+                                double friction) const {
+    const bool touching = force_.touches(s.x);
+    const State next = moved(s, t, before, after, h, friction, touching);
+    if (force_.touches(next.x) == touching) return next;
+    const auto force_at = [&](double part) { return before + (after - before) * part / h; };
+    double same = 0, other = h;  // s
+    State there = next;
+    for (int i = 0; i < 50; ++i) {
+      const double part = same + (other - same) / 2;
+      const State middle = moved(s, t, before, force_at(part), part, friction, touching);
+      if (force_.touches(middle.x) == touching) {
+        same = part;
+      } else {
+        other = part;
+        there = middle;
+      }
+    }
+    return moved(there, t + other, force_at(other), after, h - other, friction, !touching);
+  }
+
+  [[nodiscard]] State moved(const State& s, double t, double before, double after, double h, double friction,
+                            bool touching) const {
     const auto slope = [&](double part, const Slope& k) {
       const double at = part * h, x = s.x + at * k.x, v = s.v + at * k.v, q = s.q + at * k.q;
       const double F_h = before + (after - before) * part;
-      return Slope{v, (F_h - tool_.damping * v - tool_.stiffness * x - force_(t + at, x, v, q) - friction) / tool_.mass,
-                   force_.change().relaxation * v - q / force_.change().lag};
+      const double F_e = touching ? force_.touching(t + at, x, v, q) : 0;
+      const bool pressed = F_e > 0 || !force_.one_sided();
+      return Slope{v, (F_h - tool_.damping * v - tool_.stiffness * x - F_e - friction) / tool_.mass,
+                   (pressed ? force_.change().relaxation * v : 0) - q / force_.change().lag};
     };
     const Slope k1 = slope(0, {0, 0, 0}), k2 = slope(0.5, k1), k3 = slope(0.5, k2), k4 = slope(1, k3);
     return {s.x + h / 6 * (k1.x + 2 * k2.x + 2 * k3.x + k4.x), s.v + h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v),
