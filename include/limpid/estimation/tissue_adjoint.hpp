@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,7 +18,8 @@ namespace limpid {
 ///
 /// The adjoint of the linearised motion, m x'' = F_h - F_e, with the tangent of the law half-way: exact for a tangent
 /// that is constant and forces that are linear over the step, as in (4.25). What the law remembers of the path, the
-/// branches' stretches and the bristle, follows the mean velocity of a step, and pushes back.
+/// branches' stretches and the bristle, follows the mean velocity of a step, and pushes back. Where contact begins or
+/// ends with a jump of the force, an instant that moves by dt leaves v another by jump/m dt.
 /// @tparam Law  TissueLaw
 /// @realtime    no allocation, no throw for built-in scalars; some 300 flops a step
 template <typename Law>
@@ -41,32 +43,40 @@ class TissueAdjoint {
     whole_.setZero();
   }
 
-  /// Over one step, backwards; adds what the force at its end has to say.
+  /// Over one piece of the path, backwards; adds what the force at its end has to say.
   /// @param a, b  its start and its end
-  /// @param h     its length, s
   /// @param fade  of the residual force over it
-  void back(const Law& law, const State& s, const Point& a, const Point& b, const Scalar& h, const Scalar& fade,
-            Rows& H) noexcept {
-    const Scalar half = Scalar{1} / Scalar{2}, per_mass = Scalar{1} / law.settings().mass;
+  void back(const Law& law, const State& s, const Point& a, const Point& b, const typename Law::Piece& piece,
+            const Scalar& fade, Rows& H) noexcept {
+    const Scalar half = Scalar{1} / Scalar{2}, per_mass = Scalar{1} / law.settings().mass, h = piece.length;
     const Scalar x = half * (a.x + b.x), v = half * (a.v + b.v);
-    const Scalar kappa = (law.elastic(s, x).slope + law.damping_slope(s, x) * v) * per_mass;
-    const Scalar beta = (law.damping(s, x) + law.settings().tool_damping) * per_mass;
+    const Scalar k = piece.pressed ? law.elastic(s, x).slope + law.damping_slope(s, x) * v : Scalar{0};
+    const Scalar kappa = k * per_mass;
+    const Scalar beta = ((piece.pressed ? law.damping(s, x) : Scalar{0}) + law.settings().tool_damping) * per_mass;
+    if (piece.jump != Scalar{0}) shift_event(law, s, b, piece.jump * per_mass, H);
     step_.set(One(kappa), One(beta), h);
     const Scalar g = step_.impulse_response()[0], r1 = step_.step_response()[0];
     const Scalar r2 = step_.ramp_response()[0] / h, r1_end = r1 / h;  // of a force at the end alone: r2, r1_end
-    set_memory(law, a.memory.bristle, v, h);
+    set_memory(law, a.memory.bristle, piece.pressed ? v : Scalar{0}, h);
 
-    const Three from_memory = mean_velocity(law);
-    const Scalar coupling = mean_velocity_of_force(law, s);
+    const Three from_memory = piece.pressed ? mean_velocity(law) : Three::Zero();
+    const Scalar coupling = piece.pressed ? mean_velocity_of_force(law, s) : Scalar{0};
     const Three end = (r2 * x_ + r1_end * (v_ + half * from_memory)) *
                       (-per_mass / (Scalar{1} + half * coupling * r1_end * per_mass));
     const Three mean = half * (from_memory + coupling * end), v_end = v_ + mean;
-    add_force(law, s, end);
-    add(law, H, b, at_start_ + end);
+    if (piece.pressed) {
+      add_force(law, s, end);
+      at_start_ += end;
+    }
+    if (!(at_start_ == Scalar{0}).all()) add(law, H, b, at_start_);
     at_start_ = ((r1 - r2) * x_ + (g - r1_end) * v_end) * -per_mass;
     fade_memory(law, fade);
-    add_force(law, s, at_start_);
     whole_ += end + at_start_;
+    if (piece.pressed) {
+      add_force(law, s, at_start_);
+    } else {
+      at_start_.setZero();
+    }
     const Three x_end = x_;
     x_ = (Scalar{1} - kappa * r1) * x_end - kappa * g * v_end;
     v_ = g * x_end + (Scalar{1} - beta * g - kappa * r1) * v_end + mean;
@@ -99,6 +109,31 @@ class TissueAdjoint {
 
  private:
   using One = Eigen::Array<Scalar, 1, 1>;
+
+  // The tool crosses the edge later by (de - dx)/v, c' de = -dc; a graze has no derivative. What is remembered begins
+  // there with contact. It ends where the force is zero: of that instant it has nothing here.
+  void shift_event(const Law& law, const State& s, const Point& at, const Scalar& jump_per_mass, Rows& H) noexcept {
+    const Scalar slope = std::max(law.elastic(s, at.x).slope, law.settings().least_slope);
+    if (at.v == Scalar{0}) return;
+    Three shift = v_ * (jump_per_mass / at.v);
+    if (jump_per_mass > Scalar{0}) shift -= travel_remembered(law, at);
+    x_ -= shift;
+    const auto w = law.knots().at(at.x);
+    for (std::size_t k = 0; k < 4; ++k) {
+      H.row(Law::coefficient(w.first + static_cast<int>(k))) -= (shift * (w.value[k] / slope)).matrix();
+    }
+  }
+
+  // Of a travel from there, by what is remembered of it.
+  [[nodiscard]] Three travel_remembered(const Law& law, const Point& at) const noexcept {
+    Three sum = Three::Zero();
+    if (law.settings().relaxation) {
+      for (const Three& chi : chi_) sum += chi;
+    }
+    const Scalar end(at.v < Scalar{0} ? -1 : 1);
+    if (law.settings().dry_friction) sum += bristle_ * ((end - at.memory.bristle) * end / law.settings().presliding);
+    return sum;
+  }
 
   static Scalar stiffness(const Law& law, const State& s, int i) noexcept {
     return law.settings().relaxation ? s[Law::first_branch + i] : Scalar{0};
