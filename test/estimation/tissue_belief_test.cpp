@@ -25,7 +25,7 @@ TissueLearnerSettings<Law> settings() {
 Belief belief_about_zero() {
   const auto s = settings();
   Belief belief({s.curvature, s.damping_change, s.most_slope, s.most_damping}, Law(s.law(), 0.0));
-  set_prior(belief, s, 0.0);
+  set_prior(belief, s, 0.0, 1.0);
   return belief;
 }
 

@@ -47,6 +47,13 @@ class TissueBelief {
     return settings_.curvature * settings_.curvature * h * h * h;
   }
 
+  /// Nothing is known any more.
+  void forget(const Law& about) noexcept {
+    law = about;
+    s.setZero();
+    P.setZero();
+  }
+
   /// Makes the law hold for depths from `low` to `high`, m.
   void extend(const Scalar& low, const Scalar& high) noexcept {
     auto& knots = law.knots();

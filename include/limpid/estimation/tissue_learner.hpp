@@ -4,7 +4,8 @@
 #include <limpid/core/cholesky_3.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/time.hpp>
-#include <limpid/estimation/noise_levels.hpp>
+#include <limpid/estimation/contact_edge.hpp>
+#include <limpid/estimation/sample_noise.hpp>
 #include <limpid/estimation/scale_change.hpp>
 #include <limpid/estimation/tissue_belief.hpp>
 #include <limpid/estimation/tissue_law.hpp>
@@ -33,7 +34,9 @@ namespace limpid {
 ///
 /// damped where the misfit is large, halved until it falls; slopes and dampings stay physical by the nearest point in
 /// the metric of what is still open. How noisy the signals
-/// are is learnt, and whether the tissue has changed as a whole. See TissueLaw for the law.
+/// are is learnt, and whether the tissue has changed as a whole. Where `contact` is set samples that feel nothing show
+/// that the tissue begins at an edge (ContactEdge); then the law has one, and is learnt anew from the first force on.
+/// See TissueLaw for the law.
 /// @tparam Law       TissueLaw
 /// @tparam Capacity  ticks between two samples at most; where there are more, learning starts again from the sample
 /// @realtime         no allocation, no throw for built-in scalars. All at the sample: for each iteration a replay of
@@ -56,7 +59,8 @@ class TissueLearner {
                  .damping_change = settings.damping_change,
                  .most_slope = settings.most_slope,
                  .most_damping = settings.most_damping},
-                Law(settings.law(), Scalar{0})) {
+                Law(settings.law(), Scalar{0})),
+        noise_(settings.process_deviation) {
     settings.check();
   }
 
@@ -71,56 +75,92 @@ class TissueLearner {
   }
   [[nodiscard]] Time taken() const noexcept { return taken_; }
 
+  /// Whether nothing is known by which to predict: the tool is free, and what it will meet has not been felt; or no law
+  /// near the one that is known explains the last sample.
+  [[nodiscard]] bool lost() const noexcept { return !touched_ || unexplained_; }
+
   /// Takes in a sample, newer than the one before.
   /// @param forces  operator's force, N, at least from the sample before to this one; linear between its entries
   template <std::size_t N>
   void learn(const AxisSample<Scalar>& sample, const History<Scalar, N>& forces) noexcept {
-    if (!started_) return start(sample);
+    pushes_ = settings_.contact && edge_.feel(sample, softest());
+    if (!started_ || edge_.exists() != law().contact()) return start(sample);
+    if (pushes_ && !touched_) return touch(sample);
     if (!replay_.find_steps(law(), forces, taken_, sample.taken)) return restart(sample);
     const bool near = replay_.walk(law(), belief_.s, memory_, sample);
     cover(sample);
-    replay_.compare(law(), belief_.s, sample, here_);
-    if (!near || !replay_.linearise(law(), belief_.s, sample, here_)) return restart(sample);
+    replay_.compare(law(), belief_.s, sample, pushes_, here_);
+    if (!near || !replay_.linearise(law(), belief_.s, sample, pushes_, here_)) return restart(sample);
     weigh(sample);
     iterate(sample);
+    const Scalar left = Cholesky3<Scalar>(W_).whitened(here_.y).squaredNorm();
+    unexplained_ = left > Scalar(useless);
+    misses_ = law().contact() && left > doubtful ? misses_ + 1 : 0;
+    if (misses_ > 0) return misses_ > 2 && pushes_ ? touch(sample) : restart(sample);
     take_in();
     carry_forward(sample);
   }
 
  private:
+  // Misfits that are left, squares over three variances. The first is that of a law with an edge, which is met where
+  // nothing is linear, that is not believed; the second that of any law that is not used until it explains a sample.
+  static constexpr int doubtful = 100, useless = 10'000;
+
   using Scalar3 = Eigen::Matrix<Scalar, 3, 1>;
   using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
   using Replay = TissueReplay<Law, Capacity>;
   using Rows = typename Replay::Rows;
   using Evaluation = typename Replay::Evaluation;
 
-  // The prior about the first sample: a straight law of unknown slope and damping.
+  // The prior about the first sample: a straight law of unknown slope and damping; where there is an edge, none yet.
   void start(const AxisSample<Scalar>& z) noexcept {
-    law() = Law(settings_.law(), z.x);
-    belief_.s.setZero();
-    belief_.P.setZero();
-    memory_ = {};
-    place(z);
-    set_prior(belief_, settings_, z.x);
+    belief_.forget(Law(settings_.law(), z.x));
+    touched_ = !edge_.exists();
     started_ = true;
-    take_force(z, force_noise_.variance());
+    unexplained_ = false;
+    if (touched_) {
+      set_prior(belief_, settings_, z.x, Scalar{1});
+    } else {
+      law().detach(belief_.s);
+    }
+    restart(z, noise_.force_variance());
+  }
+
+  // What is believed of a law that begins at an edge, from the first sample with force on.
+  void touch(const AxisSample<Scalar>& z) noexcept {
+    const auto [at, deviation] = edge_.guess(z, settings_.slope, settings_.damping);
+    belief_.forget(Law(settings_.law(), at));
+    law().begin_at_edge();
+    set_prior(belief_, settings_, at, settings_.slope * deviation);
+    touched_ = true;
+    unexplained_ = false;
+    misses_ = 0;
+    restart(z);
+  }
+
+  // What could be taken for one.
+  [[nodiscard]] typename ContactEdge<Scalar>::Tissue softest() const noexcept {
+    return {settings_.least_slope, settings_.damping + Scalar{3} * settings_.damping_deviation};
   }
 
   // Learning cannot go on from the sample before: the law stays, the state is the sample's.
   void restart(const AxisSample<Scalar>& z) noexcept {
+    restart(z, noise_.force_variance() + Scalar(1) / Scalar(10000));
+  }
+  void restart(const AxisSample<Scalar>& z, const Scalar& force_variance) noexcept {
     memory_ = {};
     belief_.P.template topRows<3>().setZero();
     belief_.P.template leftCols<3>().setZero();
     place(z);
-    take_force(z, force_noise_.variance() + Scalar(1) / Scalar(10000));
+    take_force(z, force_variance);
   }
 
   void place(const AxisSample<Scalar>& z) noexcept {
     belief_.s[Law::position] = z.x;
     belief_.s[Law::velocity] = z.v;
     belief_.s[Law::residual] = Scalar{0};
-    belief_.P(Law::position, Law::position) = x_noise_.variance();
-    belief_.P(Law::velocity, Law::velocity) = v_noise_.variance();
+    belief_.P(Law::position, Law::position) = noise_.x_variance();
+    belief_.P(Law::velocity, Law::velocity) = noise_.v_variance();
     belief_.P(Law::residual, Law::residual) = settings_.residual_deviation * settings_.residual_deviation;
     taken_ = z.taken;
     law().visit(z.x);
@@ -129,19 +169,25 @@ class TissueLearner {
   // F_e alone, at the sample's x and v.
   void take_force(const AxisSample<Scalar>& z, const Scalar& variance) noexcept {
     Evaluation& e = here_;
+    if (!touched_ || !(pushes_ || law().pressed(belief_.s, {z.x, z.v, Scalar{0}, memory_}))) return;
     e.H.setZero();
     Replay::Adjoint::add(law(), e.H, {z.x, z.v, Scalar{0}, memory_},
                          typename Replay::Adjoint::Three(Scalar{0}, Scalar{0}, Scalar{1}));
     e.H(Law::residual, 2) = Scalar{1};
     const State gain = belief_.P * e.H.col(2);
     const Scalar whole = e.H.col(2).dot(gain) + variance;
-    belief_.s += gain * ((z.force - law().force(belief_.s, {z.x, z.v, Scalar{0}, memory_})) / whole);
+    belief_.s += gain * ((z.force - law().pressed_force(belief_.s, {z.x, z.v, Scalar{0}, memory_})) / whole);
     belief_.add_rank_one(gain, Scalar{-1} / whole);
   }
 
   // The law's range holds the sample and, as it is known now, the way to it.
   void cover(const AxisSample<Scalar>& z) noexcept {
-    const auto [low, high] = replay_.range(z.x, Scalar(2) / Scalar(1000));
+    if (!touched_) return;
+    auto [low, high] = replay_.range(z.x, Scalar(2) / Scalar(1000));
+    if (law().contact()) {
+      low = std::max(low, edge_.shallowest());
+      high = std::max(low, high);
+    }
     belief_.extend(low - law().knots().spacing(), high + law().knots().spacing());
   }
 
@@ -149,27 +195,14 @@ class TissueLearner {
   void weigh(const AxisSample<Scalar>& z) noexcept {
     belief_.project_rows(here_.H, PH_);
     Matrix3 S = here_.H.transpose() * PH_;
-    x_noise_.observe(here_.y[0], S(0, 0) + process()(0, 0));
-    v_noise_.observe(here_.y[1], S(1, 1) + process()(1, 1));
-    force_noise_.observe(here_.y[2], S(2, 2));
-    W_ = process();
-    W_(0, 0) += x_noise_.variance();
-    W_(1, 1) += v_noise_.variance();
-    W_(2, 2) += force_noise_.variance();
+    noise_.observe(here_.y, S, gains());
+    W_ = noise_.weights(gains());
     if (settings_.scale_changes) change_scale(S, in_seconds<Scalar>(elapsed(z.taken, taken_)));
     const Scalar expected = S(2, 2) + W_(2, 2), distance = here_.y[2] * here_.y[2] / expected;
     if (distance > Scalar(9)) W_(2, 2) = expected * distance / Scalar(9) - S(2, 2);
   }
 
-  // Of a force that the law lacks over the interval.
-  [[nodiscard]] Matrix3 process() const noexcept {
-    const Scalar q = settings_.process_deviation * settings_.process_deviation, more = Scalar(105) / Scalar(100);
-    Matrix3 Q = Matrix3::Zero();
-    Q(0, 0) = q * more * here_.x_gain * here_.x_gain;
-    Q(1, 1) = q * more * here_.v_gain * here_.v_gain;
-    Q(0, 1) = Q(1, 0) = q * here_.x_gain * here_.v_gain;
-    return Q;
-  }
+  [[nodiscard]] typename SampleNoise<Scalar>::Gains gains() const noexcept { return {here_.x_gain, here_.v_gain}; }
 
   void change_scale(Matrix3& S, const Scalar& T) noexcept {
     State whole = belief_.s;
@@ -223,9 +256,9 @@ class TissueLearner {
     for (int half = 0; half < 6; ++half, part /= Scalar{2}) {
       const State trial_u = u_ + part * (u - u_), trial = si_ + part * (target - si_);
       if (!replay_.walk(law(), trial, memory_, z)) continue;
-      replay_.compare(law(), trial, z, there_);
+      replay_.compare(law(), trial, z, pushes_, there_);
       const Scalar then = cost(weight, trial_u, trial, there_.y);
-      if (!(then <= now) || !replay_.linearise(law(), trial, z, there_)) continue;
+      if (!(then <= now) || !replay_.linearise(law(), trial, z, pushes_, there_)) continue;
       std::swap(here_, there_);
       si_ = trial;
       u_ = trial_u;
@@ -256,7 +289,7 @@ class TissueLearner {
 
   // From the sample before to this one.
   void carry_forward(const AxisSample<Scalar>& z) noexcept {
-    const Matrix3 Q = process();
+    const Matrix3 Q = noise_.process(gains());
     const Matrix3 HPH = here_.H.transpose() * PH_;
     belief_.s = si_;
     for (int k = 0; k < 2; ++k) {
@@ -276,8 +309,8 @@ class TissueLearner {
     belief_.s[Law::position] = here_.end.x + Q(0, 0) * missing_[0] + Q(0, 1) * missing_[1];
     belief_.s[Law::velocity] = here_.end.v + Q(1, 0) * missing_[0] + Q(1, 1) * missing_[1];
     belief_.s[Law::residual] = here_.end.residual;
-    belief_.P(0, 0) += std::min(Q(0, 0), x_noise_.variance());
-    belief_.P(1, 1) += std::min(Q(1, 1), v_noise_.variance());
+    belief_.P(0, 0) += std::min(Q(0, 0), noise_.x_variance());
+    belief_.P(1, 1) += std::min(Q(1, 1), noise_.v_variance());
     memory_ = here_.end.memory;
     taken_ = z.taken;
     law().visit(z.x);
@@ -291,15 +324,10 @@ class TissueLearner {
   State si_ = State::Zero(), u_ = State::Zero();
   typename Law::Memory memory_{};
   Time taken_{};
-  bool started_ = false;
-  NoiseLevels<6, Scalar> x_noise_{
-      {Scalar(1e-8), Scalar(1e-7), Scalar(5e-7), Scalar(1.5e-6), Scalar(3e-6), Scalar(1e-5)},
-      Scalar(98) / Scalar(100),
-      Scalar{1}};
-  NoiseLevels<5, Scalar> v_noise_{
-      {Scalar(1e-6), Scalar(1e-5), Scalar(3e-5), Scalar(1e-4), Scalar(3e-4)}, Scalar(98) / Scalar(100), Scalar{1}};
-  NoiseLevels<6, Scalar> force_noise_{
-      {Scalar(1e-4), Scalar(1e-3), Scalar(3e-3), Scalar(1e-2), Scalar(3e-2), Scalar(1e-1)}, Scalar(98) / Scalar(100)};
+  bool started_ = false, touched_ = false, pushes_ = false, unexplained_ = false;
+  int misses_ = 0;  // samples in a row that no law near the one that is known explains
+  ContactEdge<Scalar> edge_{};
+  SampleNoise<Scalar> noise_;
   ScaleChange<Scalar> scale_{typename ScaleChange<Scalar>::Settings{}};
   Matrix3 W_ = Matrix3::Zero();
   Scalar3 missing_ = Scalar3::Zero();

@@ -21,6 +21,7 @@ struct TissueLearnerSettings {
   Scalar damping{25}, damping_deviation{12};         ///< N s/m
   Scalar damping_change{3};                          ///< deviation from one damper to the next, N s/m
   bool relaxation = true, dry_friction = false;      ///< whether they are learnt
+  bool contact = false;                              ///< whether it may begin at an edge, and not pull
   Scalar branch_deviation{50};                       ///< of each K_i, N/m
   Scalar friction_deviation = Scalar(1) / 10;        ///< of F_c, N
   typename Law::Branch::Lags lags = default_lags();  ///< of the branches, s

@@ -8,11 +8,12 @@ namespace limpid {
 
 /// What a TissueLearner believes of a law before it has seen anything: it is straight, of unknown slope and damping.
 /// @param belief  zero, but for the tool's state
-/// @param x       where the tool is, m
+/// @param x       where the law has no force, about, m
+/// @param offset  deviation of the force there, N
 /// @realtime      no allocation, no throw for built-in scalars
 template <typename Law>
-void set_prior(TissueBelief<Law>& belief, const TissueLearnerSettings<Law>& settings,
-               const typename Law::Scalar& x) noexcept {
+void set_prior(TissueBelief<Law>& belief, const TissueLearnerSettings<Law>& settings, const typename Law::Scalar& x,
+               const typename Law::Scalar& offset) noexcept {
   using Scalar = typename Law::Scalar;
   const auto square = [](const Scalar& value) { return value * value; };
   if (settings.relaxation) {
@@ -33,7 +34,7 @@ void set_prior(TissueBelief<Law>& belief, const TissueLearnerSettings<Law>& sett
   for (int j = knots.low(); j <= knots.high(); ++j) {
     belief.s[Law::coefficient(j)] = settings.slope * away(j);
     for (int i = knots.low(); i <= knots.high(); ++i) {
-      belief.P(Law::coefficient(i), Law::coefficient(j)) = Scalar{1} +
+      belief.P(Law::coefficient(i), Law::coefficient(j)) = square(offset) +
                                                            away(i) * away(j) * square(settings.slope_deviation) +
                                                            (i == j ? belief.bend_variance() / Scalar(10) : Scalar{0});
     }

@@ -71,7 +71,9 @@ class CurvePredictor {
     } else if (learner_.started()) {
       step_to(forces_.size() - 1);
     }
-    if (!moderate(point_.x, point_.v, Scalar{0})) {  // a law that leads nowhere: the newest sample, held
+    if (learner_.lost()) {
+      point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}};
+    } else if (!moderate(point_.x, point_.v, Scalar{0})) {  // a law that leads nowhere: the newest sample, held
       point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}};
       status |= Status::not_finite;
     }

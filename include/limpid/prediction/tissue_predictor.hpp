@@ -47,6 +47,7 @@ template <Real Scalar>
   settings.learner.knot_spacing = Scalar(s.period <= std::chrono::milliseconds(50) ? 5 : 10) / Scalar(100'000);
   settings.learner.relaxation = relaxation;
   settings.learner.dry_friction = dry_friction;
+  settings.learner.contact = true;
   // beside friction a branch has to show more before it is believed
   if (relaxation && dry_friction) settings.learner.branch_deviation = Scalar(30);
   return settings;
