@@ -2,12 +2,11 @@
 // One loop over one scene, for any set of blocks; included by the sources that compose loops.
 #pragma once
 
+#include "palpation_arm.hpp"
 #include "palpation_sensing.hpp"
 #include "scene.hpp"
 
-#include <limpid/control/omni_safety.hpp>
 #include <limpid/control/slotine_li_adaptive.hpp>
-#include <limpid/device/simulated_omni.hpp>
 #include <limpid/loop/loop.hpp>
 #include <limpid/robot/omni.hpp>
 #include <limpid/robot/omni_kinematics.hpp>
@@ -24,9 +23,6 @@ using Plant = std::function<ToolState<3>(Time now, double force)>;
 
 [[nodiscard]] Plant make_plant(const Scene& scene);
 
-/// The wall's origin in the base frame: where the tip starts, m.
-[[nodiscard]] Eigen::Vector3d wall_of(const Scene& scene);
-
 /// The tool as the predictor knows it.
 template <int Axes>
 [[nodiscard]] Tool<Axes> tool_of(const Scene& scene) {
@@ -34,10 +30,6 @@ template <int Axes>
   if (scene.spring_at_base) tool.anchor = -wall_of(scene).template head<Axes>().array();
   return tool;
 }
-
-[[nodiscard]] SimulatedOmni<> make_device(const Scene& scene);
-[[nodiscard]] SlotineLiAdaptive<Omni<>> make_controller(const Scene& scene);
-[[nodiscard]] SafetyLimiter<Omni<>> make_limiter(const Scene& scene);
 
 /// The scene's tool along the axes that a loop works with.
 template <int Axes>
@@ -54,7 +46,8 @@ template <int Axes, typename... PredictionBlocks>
                    inputs<OperatorForce<>, ForceOnArm<>, TrueTool<Axes>, MeasuredState<Arm>>>(
       SensingBlock<Axes>(scene), std::move(prediction)...,
       KinematicsBlock<OmniKinematics<>, Arm, Axes>{OmniKinematics<>(Arm{}), wall_of(scene)},
-      TrackingBlock<SlotineLiAdaptive<Arm>, Arm>{make_controller(scene)}, SafetyBlock<Arm>{make_limiter(scene)});
+      TrackingBlock<SlotineLiAdaptive<Arm>, Arm>{SlotineLiAdaptive<Arm>(controller_settings(scene))},
+      SafetyBlock<Arm>{make_limiter(scene)});
 }
 
 /// What a loop makes of a tick.
