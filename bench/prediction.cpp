@@ -14,6 +14,7 @@
 #include <exception>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace {
 
@@ -21,7 +22,7 @@ using namespace limpid::bench;
 
 struct Options {
   Choice choice;
-  std::string csv, json, plots;
+  std::string csv, device_csv, json, plots;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   bool self_check = false;
 };
@@ -39,8 +40,11 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--recordings", choice.recordings, "folder of recorded presses, CSV files of time (s) and force");
   app.add_flag("--held-out", choice.held_out, "also what is kept out of all tuning, reported apart");
   app.add_option("--seconds", choice.seconds, "of a run, a multiple of 4");
+  app.add_flag("--device,!--no-device", choice.device, "whether an Omni follows the judged predictor, too (default)");
   app.add_option("--threads", options.threads, "at once")->check(CLI::Range(1, 256));
   app.add_option("--csv", options.csv, "file for the runs")->check(limpid::examples::refusal_of_output);
+  app.add_option("--device-csv", options.device_csv, "file for the Omni's presses")
+      ->check(limpid::examples::refusal_of_output);
   app.add_option("--json", options.json, "file for the runs, their windows, means and verdict")
       ->check(limpid::examples::refusal_of_output);
   app.add_option("--plots", options.plots, "folder for plots");
@@ -55,19 +59,24 @@ int run(const Options& options) {
 
   const auto started = std::chrono::steady_clock::now();
   Results results{.selection = selection, .rows = run_matrix(selection, options.threads), .cells = {}, .findings = {}};
+  const DeviceStudy study = options.choice.device ? study_device(selection, options.threads) : DeviceStudy{};
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
   results.cells = cells_of(selection, results.rows);
   results.findings = verdict(selection, results.rows, results.cells);
+  for (Finding& finding : device_verdict(selection, study)) results.findings.push_back(std::move(finding));
   print_tables(results);
   print_unjudged_windows(results);
+  if (options.choice.device) print_device(selection, study);
   print_verdict(results);
 
   if (!options.csv.empty()) limpid::examples::write_file(options.csv, as_csv(results));
-  if (!options.json.empty()) limpid::examples::write_file(options.json, as_json(results));
+  if (!options.json.empty()) limpid::examples::write_file(options.json, as_json(results, study));
+  if (!options.device_csv.empty()) limpid::examples::write_file(options.device_csv, as_device_csv(selection, study));
   if (!options.plots.empty()) {
     for (const std::string& file : draw_matrix(results, options.plots)) std::printf("%s\n", file.c_str());
   }
-  std::printf("%zu runs of a predictor or the floor, %.1f s\n", results.rows.size(), took.count());
+  std::printf("%zu runs of a predictor or the floor, %zu presses of an Omni, %.1f s\n", results.rows.size(),
+              4 * study.rows.size(), took.count());
   return std::ranges::all_of(results.findings, &Finding::met) ? 0 : 1;
 }
 

@@ -15,6 +15,7 @@ struct Choice {
   std::string recordings{};                             ///< a folder; none: empty
   bool held_out = false;                                ///< whether everything includes what is held out
   double seconds = 20;
+  bool device = true;  ///< whether an arm follows, too
 };
 
 /// @throws std::invalid_argument  where a name is not known, with those that are; where a number is refused

@@ -11,7 +11,7 @@ namespace {
 Trace ideal(const Course& course) {
   Trace trace;
   trace.reserve(course.truth.ticks.size());
-  for (const TrueTick& tick : course.truth.ticks) trace.push_back({tick.tool.x, tick.tool.v});
+  for (const TrueTick& tick : course.truth.ticks) trace.push_back({tick.tool.x, tick.tool.v, tick.acceleration()});
   return trace;
 }
 

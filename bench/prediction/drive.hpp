@@ -49,7 +49,7 @@ template <Predictor P, typename Inform>
     for (auto sample = first; sample != next; ++sample) (void)Traits::observe(predictor, tool_sample(*sample));
     const auto [motion, status] =
         Traits::advance(predictor, time_of(k), Eigen::Array<double, 1, 1>(course.truth.ticks[k].F_h));
-    trace.push_back({motion.x[0], motion.v[0]});
+    trace.push_back({motion.x[0], motion.v[0], motion.a[0]});
   }
   return trace;
 }

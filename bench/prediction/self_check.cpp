@@ -2,6 +2,7 @@
 #include "prediction/self_check.hpp"
 
 #include "prediction/choice.hpp"
+#include "prediction/device_press.hpp"
 #include "prediction/matrix.hpp"
 
 #include <algorithm>
@@ -127,6 +128,16 @@ bool ideal_has_no_error_and_hold_its_own() {
   });
 }
 
+// Of the arm: what it follows perfectly is not wrong by a tenth of what comes 100 to 200 ms late.
+bool ideal_arm_follows_the_true_signal() {
+  const Truth truth = simulate(tissue("A"), synthetic_forces().front(), {}, 12);
+  const auto samples = sampled(truth, 100, {}, 1);
+  const Course course{truth, samples, 100};
+  const Press ideal = press(truth, contenders().back().run(course), Follower::ideal);
+  const Press hold = press(truth, contenders().front().run(course), Follower::ideal);
+  return ideal.late < 0.1 * hold.late && !ideal.out_of_reach();
+}
+
 bool threads_change_nothing() {
   const Selection selection = small({"linear", "curve"});
   const auto alone = run_matrix(selection, 1), together = run_matrix(selection, 3);
@@ -153,6 +164,7 @@ bool self_check() {
            Check{"windows are judged over hold's error", windows_are_judged},
            Check{"the floor of a linear tissue is exact", floor_of_a_linear_tissue_is_exact},
            Check{"ideal has no error, hold its own", ideal_has_no_error_and_hold_its_own},
+           Check{"an ideal arm follows the true signal, and hold less well", ideal_arm_follows_the_true_signal},
            Check{"threads change nothing", threads_change_nothing},
        }) {
     const bool good = met();

@@ -11,7 +11,7 @@ namespace limpid::bench {
 
 /// Where the tool is said to be, tick by tick.
 struct TracePoint {
-  double x = 0, v = 0;  ///< m, m/s
+  double x = 0, v = 0, a = 0;  ///< m, m/s, m/s^2; the errors are those of x and v
 };
 using Trace = std::vector<TracePoint>;
 

@@ -20,6 +20,8 @@ inline constexpr double tool_damping = 0.1;  // N s/m
 struct TrueTick {
   ToolInTissue::State tool;
   double F_h = 0, F_e = 0;  ///< N
+
+  [[nodiscard]] double acceleration() const { return (F_h - F_e - tool_damping * tool.v) / tool_mass; }  ///< m/s^2
 };
 
 /// From rest at the surface, tick by tick, both ends included. A tissue that cannot pull is not pulled at, lest the

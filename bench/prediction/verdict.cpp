@@ -17,28 +17,6 @@ using examples::words;
 
 constexpr double floor_margin = 1.15, late_asked_of_kinks = 0.02, window_asked = 1;
 
-struct Value {
-  double value;
-  std::string where;
-};
-
-Finding finding_of(std::string what, double asked, std::vector<Value> values) {
-  std::erase_if(values, [](const Value& each) { return std::isnan(each.value); });
-  std::ranges::sort(values, std::greater<>{}, &Value::value);
-  Finding finding{.what = std::move(what),
-                  .asked = asked,
-                  .worst = std::numeric_limits<double>::quiet_NaN(),
-                  .where = {},
-                  .judged = values.size(),
-                  .missed = {}};
-  if (!values.empty()) finding.worst = values.front().value;
-  if (!values.empty()) finding.where = values.front().where;
-  for (const auto& [value, where] : values) {
-    if (!(value <= asked)) finding.missed.push_back(where + words(": %.4g", value));
-  }
-  return finding;
-}
-
 class Verdict {
  public:
   Verdict(const Selection& selection, const std::vector<Row>& rows, const std::vector<Cell>& cells, bool of_held_out)
@@ -92,12 +70,11 @@ class Verdict {
   }
 
   [[nodiscard]] std::string place(std::size_t tissue, std::size_t period) const {
-    return words("%s, T_d = %.3g", selection_.tissues[tissue].name.c_str(),
-                 static_cast<double>(selection_.periods[period]) * tick_seconds);
+    return tissue_and_period(selection_, tissue, period);
   }
 
   [[nodiscard]] Finding late(std::size_t d, std::string what, double asked, Filter among) const {
-    std::vector<Value> values;
+    std::vector<Measured> values;
     each_cell(d, [&](const Cell& cell) {
       if (among(selection_.tissues[cell.tissue])) values.push_back({cell.late, place(cell.tissue, cell.period)});
     });
@@ -105,7 +82,7 @@ class Verdict {
   }
 
   [[nodiscard]] Finding over(std::size_t d, std::string what, Ratio ratio) const {
-    std::vector<Value> values;
+    std::vector<Measured> values;
     each_cell(d, [&](const Cell& cell) {
       const Cell& floor = beside(cells_, cell, selection_.predictors.size());
       values.push_back({ratio(cell, floor), place(cell.tissue, cell.period)});
@@ -114,7 +91,7 @@ class Verdict {
   }
 
   [[nodiscard]] Finding windows() const {
-    std::vector<Value> values;
+    std::vector<Measured> values;
     for (const Row& row : rows_) {
       if (row.predictor != predictor_ || held_out(selection_, row) != of_held_out_) continue;
       values.push_back({row.figures.worst, selection_.disturbances[row.disturbance].name + ", " +
@@ -132,6 +109,28 @@ class Verdict {
 };
 
 }  // namespace
+
+Finding finding_of(std::string what, double asked, std::vector<Measured> values) {
+  std::erase_if(values, [](const Measured& each) { return std::isnan(each.value); });
+  std::ranges::sort(values, std::greater<>{}, &Measured::value);
+  Finding finding{.what = std::move(what),
+                  .asked = asked,
+                  .worst = std::numeric_limits<double>::quiet_NaN(),
+                  .where = {},
+                  .judged = values.size(),
+                  .missed = {}};
+  if (!values.empty()) finding.worst = values.front().value;
+  if (!values.empty()) finding.where = values.front().where;
+  for (const auto& [value, where] : values) {
+    if (!(value <= asked)) finding.missed.push_back(where + words(": %.4g", value));
+  }
+  return finding;
+}
+
+std::string tissue_and_period(const Selection& selection, std::size_t tissue, std::size_t period) {
+  return words("%s, T_d = %.3g", selection.tissues[tissue].name.c_str(),
+               static_cast<double>(selection.periods[period]) * tick_seconds);
+}
 
 std::vector<Finding> verdict(const Selection& selection, const std::vector<Row>& rows, const std::vector<Cell>& cells) {
   std::vector<Finding> all = Verdict(selection, rows, cells, false).findings();

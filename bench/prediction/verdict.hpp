@@ -19,6 +19,18 @@ struct Finding {
   [[nodiscard]] bool met() const { return missed.empty(); }
 };
 
+/// A figure and where it was found.
+struct Measured {
+  double value;
+  std::string where;
+};
+
+/// What comes of the values that are not NaN.
+[[nodiscard]] Finding finding_of(std::string what, double asked, std::vector<Measured> values);
+
+/// For the reader.
+[[nodiscard]] std::string tissue_and_period(const Selection& selection, std::size_t tissue, std::size_t period);
+
 /// All figures that the selection says something of: those of the runs that are not held out, then of those that are.
 [[nodiscard]] std::vector<Finding> verdict(const Selection& selection, const std::vector<Row>& rows,
                                            const std::vector<Cell>& cells);
