@@ -2,6 +2,7 @@
 // Every predictor in every tissue, under every force, disturbance and period, beside the floor that no learner can
 // pass; fails where a figure asked of the chosen predictor is missed.
 #include "prediction/choice.hpp"
+#include "prediction/cost.hpp"
 #include "prediction/report.hpp"
 #include "prediction/self_check.hpp"
 
@@ -60,13 +61,17 @@ int run(const Options& options) {
   const auto started = std::chrono::steady_clock::now();
   Results results{.selection = selection, .rows = run_matrix(selection, options.threads), .cells = {}, .findings = {}};
   const DeviceStudy study = options.choice.device ? study_device(selection, options.threads) : DeviceStudy{};
+  const bool chosen = std::ranges::find(selection.predictors, "chosen", &Contender::name) != selection.predictors.end();
+  const std::vector<Cost> costs = chosen ? cost_of_chosen(selection) : std::vector<Cost>{};
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
   results.cells = cells_of(selection, results.rows);
   results.findings = verdict(selection, results.rows, results.cells);
   for (Finding& finding : device_verdict(selection, study)) results.findings.push_back(std::move(finding));
+  for (Finding& finding : cost_verdict(selection, costs)) results.findings.push_back(std::move(finding));
   print_tables(results);
   print_unjudged_windows(results);
   if (options.choice.device) print_device(selection, study);
+  if (chosen) print_cost(selection, costs);
   print_verdict(results);
 
   if (!options.csv.empty()) limpid::examples::write_file(options.csv, as_csv(results));

@@ -22,4 +22,7 @@ struct Contender {
 [[nodiscard]] std::vector<Contender> model_contenders();   ///< with the thesis's model, estimated
 [[nodiscard]] std::vector<Contender> curve_contenders();   ///< learn a whole force law
 
+/// What each tick of the contender `chosen` took, us.
+[[nodiscard]] std::vector<double> microseconds_of_chosen(const Course& course);
+
 }  // namespace limpid::bench

@@ -4,6 +4,7 @@
 
 #include <limpid/prediction/tissue_predictor.hpp>
 
+#include <chrono>
 #include <memory>
 
 namespace limpid::bench {
@@ -25,6 +26,21 @@ Trace chosen(const Course& course) {
 }
 
 }  // namespace
+
+std::vector<double> microseconds_of_chosen(const Course& course) {
+  using Clock = std::chrono::steady_clock;
+  const auto predictor = make_tissue_predictor(settings_for(course));
+  std::vector<Clock::time_point> begun;
+  begun.reserve(course.truth.ticks.size() + 1);
+  (void)drive(*predictor, course, [&](Time, const Held<ToolState<1>>&) { begun.push_back(Clock::now()); });
+  begun.push_back(Clock::now());
+  std::vector<double> taken;
+  taken.reserve(begun.size());
+  for (std::size_t k = 0; k + 1 < begun.size(); ++k) {
+    taken.push_back(std::chrono::duration<double, std::micro>(begun[k + 1] - begun[k]).count());
+  }
+  return taken;
+}
 
 std::vector<Contender> curve_contenders() { return {{"curve", curve}, {"chosen", chosen}}; }
 
