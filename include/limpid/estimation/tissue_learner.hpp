@@ -220,7 +220,8 @@ class TissueLearner {
   void iterate(const AxisSample<Scalar>& z) noexcept {
     si_ = belief_.s;
     u_.setZero();
-    for (int i = 0; i < settings_.iterations; ++i) {
+    bool linear = false;
+    for (int i = 0; i < settings_.iterations && !linear; ++i) {
       if (i > 0) belief_.project_rows(here_.H, PH_);
       const Matrix3 W = damped();
       const Cholesky3<Scalar> weight(W), factor(here_.H.transpose() * PH_ + W);
@@ -229,7 +230,8 @@ class TissueLearner {
       belief_.keep_physical(target, u, {here_.H, PH_, factor});
       const Scalar before = cost(weight, u_, si_, here_.y);
       Scalar now = before;
-      if (!approach(z, weight, u, target, now)) break;
+      linear = W == W_;  // a damped step does not lead where the misfit is least
+      if (!approach(z, weight, u, target, now, linear)) break;
       if (before - now < before / Scalar(10000) + Scalar(1) / Scalar(1'000'000)) break;
     }
   }
@@ -249,17 +251,27 @@ class TissueLearner {
     return u.dot(at - belief_.s) + weight.whitened(y).squaredNorm();
   }
 
-  // From si_ toward the target, halved until the cost falls.
+  // From si_ toward the target, halved until the cost falls. Where the misfit there is the linear one, to a tenth of
+  // its deviation, the derivatives stay, and the target is where a next step would lead.
   [[nodiscard]] bool approach(const AxisSample<Scalar>& z, const Cholesky3<Scalar>& weight, const State& u,
-                              const State& target, Scalar& now) noexcept {
+                              const State& target, Scalar& now, bool& linear) noexcept {
     Scalar part{1};
     for (int half = 0; half < 6; ++half, part /= Scalar{2}) {
       const State trial_u = u_ + part * (u - u_), trial = si_ + part * (target - si_);
       if (!replay_.walk(law(), trial, memory_, z)) continue;
       replay_.compare(law(), trial, z, pushes_, there_);
       const Scalar then = cost(weight, trial_u, trial, there_.y);
-      if (!(then <= now) || !replay_.linearise(law(), trial, z, pushes_, there_)) continue;
-      std::swap(here_, there_);
+      if (!(then <= now)) continue;
+      const Scalar3 bent = there_.y - here_.y + here_.H.transpose() * (trial - si_);
+      linear = linear && half == 0 && weight.whitened(bent).squaredNorm() < Scalar(1) / Scalar(100);
+      if (linear) {
+        here_.y = there_.y;
+        here_.end = there_.end;
+      } else if (replay_.linearise(law(), trial, z, pushes_, there_)) {
+        std::swap(here_, there_);
+      } else {
+        continue;
+      }
       si_ = trial;
       u_ = trial_u;
       now = then;
