@@ -53,6 +53,20 @@ TEST_CASE("where the knots' spacing doubles a straight law stays, also beyond bo
   }
 }
 
+TEST_CASE("a law of four coefficients stays straight where its range grows at once to hundreds of spacings") {
+  for (const double about : {0.0, 1e-4, -1e-4, 7e-4}) {
+    const auto s = settings();
+    Belief belief({s.curvature, s.damping_change, s.most_slope, s.most_damping}, Law(s.law(), about));
+    for (int j = belief.law.knots().low(); j <= belief.law.knots().high(); ++j) {
+      belief.s[Law::coefficient(j)] = 0.3 + 800 * j * 1e-4;
+    }
+    belief.extend(-0.03, 0.05);
+    for (double x = -0.03; x < 0.05; x += 1.7e-3) {
+      CHECK(belief.law.elastic(belief.s, x).force == doctest::Approx(0.3 + 800 * x).epsilon(1e-12));
+    }
+  }
+}
+
 TEST_CASE("what is believed of the force grows with the distance from what was seen") {
   Belief belief = belief_about_zero();
   belief.extend(-1e-3, 3e-3);

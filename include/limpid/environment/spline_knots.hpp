@@ -35,11 +35,12 @@ class SplineKnots {
   void extend_up() noexcept { ++high_; }
   void extend_down() noexcept { --low_; }
 
-  /// Twice the spacing: the knots with odd indices go.
+  /// Twice the spacing: the knots with odd indices go; four coefficients stay at least.
   void coarsen() noexcept {
+    const int low = inner_low_of_coarse(), high = inner_high_of_coarse();
     spacing_ *= Scalar{2};
-    low_ = inner_low_of_coarse() - 1;
-    high_ = inner_high_of_coarse() + 1;
+    low_ = low - 1;
+    high_ = std::max(high, low + 1) + 1;
   }
 
   /// The outermost knots that stay interior once every second one is gone, as coarse indices.

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <utility>
 
 namespace limpid {
@@ -180,7 +179,8 @@ class TissueBelief {
   // exact for cubics. Rare.
   void coarsen() noexcept {
     auto& knots = law.knots();
-    const int low = knots.inner_low_of_coarse(), high = knots.inner_high_of_coarse(), count = high - low + 3;
+    const int low = knots.inner_low_of_coarse(), last = knots.inner_high_of_coarse();
+    const int count = std::max(last, low + 1) - low + 3;
     const SplineKnots<Scalar> fine = knots;
     // rows of the map from fine to coarse coefficients: at most nine entries about 2 J
     const auto add_value = [&](int J, const Scalar& weight, Weights& to) {
@@ -188,11 +188,13 @@ class TissueBelief {
         to[std::size_t(2 * J + k - fine.low())] += weight * (k == 0 ? Scalar(4) : Scalar(1)) / Scalar(6);
       }
     };
+    // beyond the outermost ones along the tangent there, (c_j+1 - c_j-1)/2 a spacing
     const auto add_straight = [&](int J, const Scalar& weight, Weights& to) {
-      const int inside = std::clamp(J, low, high), beside = J < low ? low + 1 : high - 1;
-      const auto beyond = static_cast<Scalar>(std::abs(J - inside));
-      add_value(inside, (Scalar{1} + beyond) * weight, to);
-      if (J != inside) add_value(beside, -beyond * weight, to);
+      const int inside = std::clamp(J, low, last);
+      const Scalar beyond(J - inside);
+      add_value(inside, weight, to);
+      to[std::size_t(2 * inside + 1 - fine.low())] += beyond * weight;
+      to[std::size_t(2 * inside - 1 - fine.low())] -= beyond * weight;
     };
     for (int j = fine.low(); j <= fine.high(); ++j) order_[std::size_t(j - fine.low())] = Law::coefficient(j);
     for (int i = 0; i < count; ++i) {
