@@ -23,7 +23,6 @@ TEST_CASE("a tool that goes deeper and feels nothing shows that there is an edge
   CHECK(!edge.exists());
   feel(edge, 5e-4, 0.02, 0);
   CHECK(edge.exists());
-  CHECK(edge.shallowest() == 5e-4);
 }
 
 TEST_CASE("a tool that goes back at a steady rate and feels nothing shows it too") {
@@ -66,6 +65,28 @@ TEST_CASE("where a tissue pulls in two samples one after the other there is no e
   CHECK(edge.exists());
   feel(edge, -2e-3, -0.01, -1);
   CHECK(!edge.exists());
+}
+
+TEST_CASE("a tool that was free five times since its tissue pulled meets an edge after all") {
+  Edge edge;
+  const auto fly = [&] {
+    for (const double x : {0.0, 5e-4}) feel(edge, x, 0.01, 0);
+    feel(edge, 2e-3, 0, 1);
+  };
+  fly();
+  for (int i = 0; i < 2; ++i) feel(edge, 1e-3, -0.01, -1);
+  for (int i = 0; i < 4; ++i) fly();
+  CHECK(!edge.exists());
+  fly();
+  CHECK(edge.exists());
+}
+
+TEST_CASE("where the tool was free deeper than it feels a force now, the guess is by that force") {
+  Edge edge;
+  for (const double x : {4e-3, 5e-3}) feel(edge, x, 0.01, 0);
+  const auto [at, deviation] = edge.guess({.taken = {}, .x = 3e-3, .v = 0, .force = 2}, 1000, 25);
+  CHECK(at == doctest::Approx(1e-3));
+  CHECK(deviation == doctest::Approx(2e-3));
 }
 
 TEST_CASE("noise that was seen while the tool was free is not taken for a push") {

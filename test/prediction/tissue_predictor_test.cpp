@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace {
 
@@ -84,4 +85,37 @@ TEST_CASE("a tissue's predictor that cannot serve is refused by name") {
                        "TissueLearner: mass: expected finite and > 0, got 0", std::invalid_argument);
   CHECK_THROWS_WITH_AS((void)make_tissue_predictor<double>({.mass = 0.1, .period = 0ms}),
                        "TissuePredictor: period: expected > 0 s, got 0 s", std::invalid_argument);
+}
+
+TEST_CASE("after two seconds of samples that are wild the tissue is learnt anew") {
+  const unsigned seed = 7;
+  CAPTURE(seed);
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> wild(-1, 1);
+  const auto predictor = make_tissue_predictor<double>({.mass = 0.1, .tool_damping = 0.1, .period = 32ms});
+  VirtualTool<Env> tool({.environment = Env({.depth = 0.0028, .sharpness = 20}),
+                         .theta = {370, 1980, 30},
+                         .tool = {.mass = 0.1, .damping = 0.1}});
+  double error = 0, error_of_hold = 0;
+  ToolSample<1> on_the_way{}, held{};
+  for (Time now{0}; now <= 14s; now += 1ms) {
+    const auto state = tool.advance(now, One(press(now))).value;
+    if (now % 32ms == 0ns) {
+      on_the_way.arrived = now;
+      if (now > 0ms) (void)predictor->observe(on_the_way);
+      held = on_the_way;
+      on_the_way = {state, now, now};
+      if (now >= 4s && now < 6s) {
+        on_the_way.value.x[0] = 9 * wild(generator);
+        on_the_way.value.v[0] = 90 * wild(generator);
+        on_the_way.value.force[0] = 9000 * wild(generator);
+      }
+    }
+    const auto motion = predictor->advance(now, One(press(now))).motion;
+    CHECK(std::abs(motion.x[0]) < 10);
+    if (now < 12s) continue;
+    error += std::pow(motion.v[0] - state.v[0], 2);
+    error_of_hold += std::pow(held.value.v[0] - state.v[0], 2);
+  }
+  CHECK(error < 0.05 * 0.05 * error_of_hold);  // it is a fiftieth of that where nothing was wild
 }

@@ -31,37 +31,31 @@ class ContactEdge {
   bool feel(const AxisSample<Scalar>& z, const Tissue& least) noexcept {
     using std::abs, std::sqrt;
     const Scalar noise = Scalar(4) * sqrt(noise_.variance());
-    pulls_ = z.force < -noise ? std::min(pulls_ + 1, 2) : pulls_ < 2 ? 0 : pulls_;
+    count_pulls(z.force < -noise);
     if (abs(z.force) > noise) {
       row_ = 0;
       if (z.force > noise) pressed_from_ = std::min(pressed_from_, z.x);
       return z.force > noise;
     }
-    if (row_++ == 0) begin_row(z);
-    const Scalar dx = z.x - from_.x, dv = z.v - from_.v;
-    const Scalar cancelled = dx * dv < Scalar{0} ? least.damping * abs(dv) : Scalar{0};
-    force_ += abs(z.force);
-    expected_ += std::max(least.slope * abs(dx) - cancelled, Scalar{0});
-    free_ = free_ || (abs(dx) > Scalar(5) / Scalar(100000) && force_ < expected_ / Scalar{2});
-    if (!free_) return false;
-    exists_ = true;
-    if (z.v >= Scalar{0}) free_to_ = std::max(free_to_, z.x);
-    noise_.observe(z.force, Scalar{0});
+    lengthen_row(z, least);
+    if (free_) noise_.observe(z.force, Scalar{0});
     return false;
   }
 
   /// Whether there is one.
   [[nodiscard]] bool exists() const noexcept { return exists_ && pulls_ < 2; }
 
-  /// It is not shallower than this, m.
-  [[nodiscard]] Scalar shallowest() const noexcept { return std::min(free_to_, pressed_from_); }
+  /// The shallowest depth with force, m; since `begin_at`.
+  [[nodiscard]] Scalar pressed_from() const noexcept { return pressed_from_; }
+  void begin_at(const Scalar& x) noexcept { pressed_from_ = x; }
 
   /// @param z        a sample with force
-  /// @param slope    of the tissue, N/m, about
-  /// @param damping  N s/m, about
+  /// @param slope    of the tissue, N/m, as it is believed before anything is known
+  /// @param damping  N s/m, likewise
   [[nodiscard]] Guess guess(const AxisSample<Scalar>& z, const Scalar& slope, const Scalar& damping) const noexcept {
     const Scalar pressed = std::max(z.force - damping * std::max(z.v, Scalar{0}), z.force / Scalar{10}) / slope;
-    const Scalar room = std::max(z.x - free_to_, Scalar(1) / Scalar(100000));
+    // where it was free deeper than that before, the edge has moved
+    const Scalar room = z.x > free_to_ ? std::max(z.x - free_to_, Scalar(1) / Scalar(100000)) : pressed;
     const Scalar depth = std::min(pressed, room), deviation = std::min(std::max(depth, room - depth), pressed);
     return {z.x - depth, deviation};
   }
@@ -69,8 +63,32 @@ class ContactEdge {
  private:
   static constexpr Scalar nowhere() noexcept { return std::numeric_limits<Scalar>::max(); }
 
+  // Two in a row end the edge; five rows without force that show one, and no pull between them, bring it back.
+  void count_pulls(bool pulls) noexcept {
+    if (pulls) {
+      pulls_ = std::min(pulls_ + 1, 2);
+      free_rows_ = 0;
+    } else if (pulls_ < 2 || free_rows_ >= 5) {
+      pulls_ = 0;
+    }
+  }
+
+  void lengthen_row(const AxisSample<Scalar>& z, const Tissue& least) noexcept {
+    using std::abs;
+    if (row_++ == 0) begin_row(z);
+    const Scalar dx = z.x - from_.x, dv = z.v - from_.v;
+    const Scalar cancelled = dx * dv < Scalar{0} ? least.damping * abs(dv) : Scalar{0};
+    force_ += abs(z.force);
+    expected_ += std::max(least.slope * abs(dx) - cancelled, Scalar{0});
+    if (!free_ && abs(dx) > Scalar(5) / Scalar(100000) && force_ < expected_ / Scalar{2}) {
+      free_ = exists_ = true;
+      free_rows_ = std::min(free_rows_ + 1, 5);
+    }
+    if (free_ && z.v >= Scalar{0}) free_to_ = std::max(free_to_, z.x);
+  }
+
   void begin_row(const AxisSample<Scalar>& z) noexcept {
-    if (free_) free_to_ = std::min(free_to_, z.x);
+    free_to_ = -nowhere();
     free_ = false;
     from_ = z;
     force_ = expected_ = Scalar{0};
@@ -80,9 +98,10 @@ class ContactEdge {
                                 Scalar(98) / Scalar(100)};
   AxisSample<Scalar> from_{};        // the first in a row of samples without force
   Scalar force_{0}, expected_{0};    // the row's forces; of a tissue that it could be, at least; N
-  Scalar free_to_ = -nowhere();      // the deepest at which it moved deeper and felt none, m
+  Scalar free_to_ = -nowhere();      // the deepest of the row at which it moved deeper, m
   Scalar pressed_from_ = nowhere();  // the shallowest with force, m
-  int row_ = 0, pulls_ = 0;          // how many of such a row; pulls in a row, at most 2
+  int row_ = 0, free_rows_ = 0;      // how many of such a row; of rows that showed an edge, since a pull
+  int pulls_ = 0;                    // in a row, at most 2
   bool free_ = false, exists_ = false;
 };
 

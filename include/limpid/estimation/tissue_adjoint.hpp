@@ -111,7 +111,7 @@ class TissueAdjoint {
   using One = Eigen::Array<Scalar, 1, 1>;
 
   // The tool crosses the edge later by (de - dx)/v, c' de = -dc; a graze has no derivative. What is remembered begins
-  // there with contact. It ends where the force is zero: of that instant it has nothing here.
+  // there with contact; what it has of the instant at which contact ends is neglected.
   void shift_event(const Law& law, const State& s, const Point& at, const Scalar& jump_per_mass, Rows& H) noexcept {
     const Scalar slope = std::max(law.elastic(s, at.x).slope, law.settings().least_slope);
     if (at.v == Scalar{0}) return;

@@ -39,7 +39,7 @@ class TissueLaw {
   static constexpr int first_damper = first_branch + Branches, first_coefficient = first_damper + Dampers;
   static constexpr int states = first_coefficient + Coefficients;
   static constexpr int most_coefficients = Coefficients, most_dampers = Dampers, branches = Branches;
-  static constexpr int most_pieces = 4;  ///< of a step: touched, left, touched again
+  static constexpr int most_pieces = 4;  ///< of a step: touched, left, touched again; the last to its end
   using State = Eigen::Matrix<Scalar, states, 1>;
   using Branch = MaxwellBranches<Branches, Scalar>;
 
@@ -196,9 +196,10 @@ class TissueLaw {
       if (!found.changed) break;
       done += piece.length = found.part;
       p = found.end;
-      piece.jump = std::max(pressed_force(s, p), Scalar{0}) * Scalar(piece.pressed ? -1 : 1);
+      piece.jump = jump(s, p) * Scalar(piece.pressed ? -1 : 1);
       take(std::as_const(p), std::as_const(piece));
       piece = {.length = h - done, .pressed = !piece.pressed, .jump = Scalar{0}};
+      if (!(piece.length > Scalar{0})) return;
     }
     p = after(piece.length);
     take(std::as_const(p), std::as_const(piece));
@@ -215,6 +216,12 @@ class TissueLaw {
   [[nodiscard]] Scalar push(const State& s, const Point& p) const noexcept {
     const Scalar c = elastic(s, p.x).force;
     return std::min(c, c + damping(s, p.x) * p.v + memory_force(s, p.memory) + p.residual);
+  }
+
+  // Of the force at an event, N: at the edge, c = 0, there is one; where the force itself is zero none.
+  [[nodiscard]] Scalar jump(const State& s, const Point& p) const noexcept {
+    const Scalar force = pressed_force(s, p);
+    return elastic(s, p.x).force <= force ? std::max(force, Scalar{0}) : Scalar{0};
   }
 
   [[nodiscard]] static int wrapped(int j, int count) noexcept {

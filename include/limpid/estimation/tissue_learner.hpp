@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace limpid {
 
@@ -33,10 +34,9 @@ namespace limpid {
 ///     (s - s0)' P^-1 (s - s0) + (z - h(s))' W^-1 (z - h(s)),
 ///
 /// damped where the misfit is large, halved until it falls; slopes and dampings stay physical by the nearest point in
-/// the metric of what is still open. How noisy the signals
-/// are is learnt, and whether the tissue has changed as a whole. Where `contact` is set samples that feel nothing show
-/// that the tissue begins at an edge (ContactEdge); then the law has one, and is learnt anew from the first force on.
-/// See TissueLaw for the law.
+/// the metric of what is still open. How noisy the signals are is learnt, and whether the tissue has changed as a
+/// whole. Where `contact` is set samples that feel nothing show that the tissue begins at an edge (ContactEdge); then
+/// the law has one, and is learnt anew from the first force on. See TissueLaw for the law.
 /// @tparam Law       TissueLaw
 /// @tparam Capacity  ticks between two samples at most; where there are more, learning starts again from the sample
 /// @realtime         no allocation, no throw for built-in scalars. All at the sample: for each iteration a replay of
@@ -76,7 +76,8 @@ class TissueLearner {
   [[nodiscard]] Time taken() const noexcept { return taken_; }
 
   /// Whether nothing is known by which to predict: the tool is free, and what it will meet has not been felt; or no law
-  /// near the one that is known explains the last sample.
+  /// near the one that is known explains the last sample, or the last
+  /// few came too far apart to be replayed.
   [[nodiscard]] bool lost() const noexcept { return !touched_ || unexplained_; }
 
   /// Takes in a sample, newer than the one before.
@@ -86,17 +87,23 @@ class TissueLearner {
     pushes_ = settings_.contact && edge_.feel(sample, softest());
     if (!started_ || edge_.exists() != law().contact()) return start(sample);
     if (pushes_ && !touched_) return touch(sample);
-    if (!replay_.find_steps(law(), forces, taken_, sample.taken)) return restart(sample);
+    gaps_ = replay_.find_steps(law(), forces, taken_, sample.taken) ? 0 : std::min(gaps_ + 1, most_gaps + 1);
+    if (gaps_ > 0) {
+      unexplained_ = gaps_ > most_gaps;
+      return restart(sample);
+    }
     const bool near = replay_.walk(law(), belief_.s, memory_, sample);
     cover(sample);
     replay_.compare(law(), belief_.s, sample, pushes_, here_);
-    if (!near || !replay_.linearise(law(), belief_.s, sample, pushes_, here_)) return restart(sample);
+    unexplained_ = !near || !replay_.linearise(law(), belief_.s, sample, pushes_, here_);
+    if (unexplained_) return miss(sample);
     weigh(sample);
     iterate(sample);
     const Scalar left = Cholesky3<Scalar>(W_).whitened(here_.y).squaredNorm();
     unexplained_ = left > Scalar(useless);
-    misses_ = law().contact() && left > doubtful ? misses_ + 1 : 0;
-    if (misses_ > 0) return misses_ > 2 && pushes_ ? touch(sample) : restart(sample);
+    if (law().contact() && left > doubtful) return miss(sample);
+    misses_ = unexplained_ ? misses_ + 1 : 0;
+    if (misses_ > most_misses) return start(sample);
     take_in();
     carry_forward(sample);
   }
@@ -105,6 +112,8 @@ class TissueLearner {
   // Misfits that are left, squares over three variances. The first is that of a law with an edge, which is met where
   // nothing is linear, that is not believed; the second that of any law that is not used until it explains a sample.
   static constexpr int doubtful = 100, useless = 10'000;
+  static constexpr int most_misses = 10, most_misses_of_contact = 2;  // in a row, before learning starts anew
+  static constexpr int most_gaps = 2;                                 // in a row, with the law as it was
 
   using Scalar3 = Eigen::Matrix<Scalar, 3, 1>;
   using Matrix3 = Eigen::Matrix<Scalar, 3, 3>;
@@ -118,6 +127,7 @@ class TissueLearner {
     touched_ = !edge_.exists();
     started_ = true;
     unexplained_ = false;
+    misses_ = 0;
     if (touched_) {
       set_prior(belief_, settings_, z.x, Scalar{1});
     } else {
@@ -132,9 +142,18 @@ class TissueLearner {
     belief_.forget(Law(settings_.law(), at));
     law().begin_at_edge();
     set_prior(belief_, settings_, at, settings_.slope * deviation);
+    edge_.begin_at(z.x);
     touched_ = true;
     unexplained_ = false;
     misses_ = 0;
+    restart(z);
+  }
+
+  // No law near the one that is known explains the sample. In flight that says nothing of a law with an edge.
+  void miss(const AxisSample<Scalar>& z) noexcept {
+    if (!law().contact() || pushes_) ++misses_;
+    if (law().contact() && misses_ > most_misses_of_contact) return touch(z);
+    if (misses_ > most_misses) return start(z);
     restart(z);
   }
 
@@ -178,6 +197,8 @@ class TissueLearner {
     const Scalar whole = e.H.col(2).dot(gain) + variance;
     belief_.s += gain * ((z.force - law().pressed_force(belief_.s, {z.x, z.v, Scalar{0}, memory_})) / whole);
     belief_.add_rank_one(gain, Scalar{-1} / whole);
+    State u = State::Zero();
+    belief_.keep_physical(belief_.s, u);
   }
 
   // The law's range holds the sample and, as it is known now, the way to it.
@@ -185,7 +206,7 @@ class TissueLearner {
     if (!touched_) return;
     auto [low, high] = replay_.range(z.x, Scalar(2) / Scalar(1000));
     if (law().contact()) {
-      low = std::max(low, edge_.shallowest());
+      low = std::max(low, edge_.pressed_from());
       high = std::max(low, high);
     }
     belief_.extend(low - law().knots().spacing(), high + law().knots().spacing());
@@ -337,6 +358,7 @@ class TissueLearner {
   typename Law::Memory memory_{};
   Time taken_{};
   bool started_ = false, touched_ = false, pushes_ = false, unexplained_ = false;
+  int gaps_ = 0;    // intervals in a row that cannot be replayed
   int misses_ = 0;  // samples in a row that no law near the one that is known explains
   ContactEdge<Scalar> edge_{};
   SampleNoise<Scalar> noise_;

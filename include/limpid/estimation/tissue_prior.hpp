@@ -7,7 +7,7 @@
 namespace limpid {
 
 /// What a TissueLearner believes of a law before it has seen anything: it is straight, of unknown slope and damping.
-/// @param belief  zero, but for the tool's state
+/// @param belief  zero
 /// @param x       where the law has no force, about, m
 /// @param offset  deviation of the force there, N
 /// @realtime      no allocation, no throw for built-in scalars

@@ -17,7 +17,7 @@
 namespace limpid {
 
 /// Learns the tissue's whole force law, and replays it from the newest sample's state over the operator's force up to
-/// now. One axis. See TissueLearner.
+/// now. One axis. Where the learner is lost the newest sample is held, with status ok. See TissueLearner.
 ///
 /// A sample beyond 10 m, 100 m/s or 10 kN is refused as not finite; a law that leads beyond them is left for the newest
 /// sample, held, with the same word.
@@ -71,11 +71,11 @@ class CurvePredictor {
     } else if (learner_.started()) {
       step_to(forces_.size() - 1);
     }
-    if (learner_.lost()) {
-      point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}};
-    } else if (!moderate(point_.x, point_.v, Scalar{0})) {  // a law that leads nowhere: the newest sample, held
-      point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}};
+    if (!moderate(point_.x, point_.v, Scalar{0})) {  // a law that leads nowhere
+      hold_newest();
       status |= Status::not_finite;
+    } else if (learner_.lost()) {
+      hold_newest();
     }
     motion_.x[0] = point_.x;
     motion_.v[0] = point_.v;
@@ -91,6 +91,8 @@ class CurvePredictor {
     using std::abs;
     return abs(x) < Scalar(10) && abs(v) < Scalar(100) && abs(F) < Scalar(10000);
   }
+
+  void hold_newest() noexcept { point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}}; }
 
   // From the newest sample to now; from the first tick that is remembered, where it was taken before that.
   Status replay() noexcept {
