@@ -52,7 +52,9 @@
 #include <limpid/environment/virtual_tool.hpp>
 
 #include <limpid/estimation/any_above.hpp>
+#include <limpid/estimation/axis_sample.hpp>
 #include <limpid/estimation/box_projection.hpp>
+#include <limpid/estimation/contact_edge.hpp>
 #include <limpid/estimation/environment_estimate.hpp>
 #include <limpid/estimation/environment_estimator.hpp>
 #include <limpid/estimation/excitation.hpp>
@@ -63,7 +65,9 @@
 #include <limpid/estimation/least_squares_flow.hpp>
 #include <limpid/estimation/noise_levels.hpp>
 #include <limpid/estimation/projection_rls.hpp>
+#include <limpid/estimation/sample_noise.hpp>
 #include <limpid/estimation/scale_change.hpp>
+#include <limpid/estimation/sign_change.hpp>
 #include <limpid/estimation/symmetric_eigenvalues.hpp>
 #include <limpid/estimation/tissue_adjoint.hpp>
 #include <limpid/estimation/tissue_belief.hpp>
