@@ -94,7 +94,8 @@ TEST_CASE("with the hold B they are too, and the norm is not the 0.5 of the high
 }
 
 TEST_CASE("with the exact hold the bound of the norm is close where the mass is surer than the damping") {
-  for (const auto& [alpha, beta] : {std::pair{0.05, 0.5}, std::pair{0.2, 1.0}, std::pair{0.0, 0.5}}) {
+  for (const auto& bounds : {std::pair{0.05, 0.5}, std::pair{0.2, 1.0}, std::pair{0.0, 0.5}}) {
+    const double alpha = bounds.first, beta = bounds.second;
     CAPTURE(alpha);
     auto problem = paper(HoldModel::exact);
     problem.uncertainty = {alpha, beta};
