@@ -99,3 +99,22 @@ TEST_CASE("a curve predictor's start that is not finite or out of all reach is r
   CHECK_THROWS_WITH_AS(CurvePredictor<>{bad}, "CurvePredictor: start: expected within 10 m and 100 m/s, got 11",
                        std::invalid_argument);
 }
+
+TEST_CASE("as long as a free tool has felt nothing the newest sample is held, its acceleration too") {
+  auto wary = settings();
+  wary.learner.contact = true;
+  const auto predictor = std::make_unique<CurvePredictor<>>(wary);
+  for (Time now{0}; now <= 100ms; now += 1ms) {
+    ToolState<1> free;  // 1 N on 0.1 kg
+    free.x[0] = 5 * in_seconds(now) * in_seconds(now);
+    free.v[0] = 10 * in_seconds(now);
+    if (now % 32ms == 0ns) (void)predictor->observe({free, now, now});
+    const auto [motion, status] = predictor->advance(now, One(1.0));
+    if (now < 64ms) continue;
+    const double taken = in_seconds(now - now % 32ms);
+    CHECK(status == Status::ok);
+    CHECK(motion.x[0] == doctest::Approx(5 * taken * taken));
+    CHECK(motion.v[0] == doctest::Approx(10 * taken));
+    CHECK(motion.a[0] == 0);
+  }
+}

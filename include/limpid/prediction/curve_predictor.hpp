@@ -71,17 +71,12 @@ class CurvePredictor {
     } else if (learner_.started()) {
       step_to(forces_.size() - 1);
     }
-    if (!moderate(point_.x, point_.v, Scalar{0})) {  // a law that leads nowhere
+    const bool leads_nowhere = !moderate(point_.x, point_.v, Scalar{0});
+    if (leads_nowhere) status |= Status::not_finite;
+    if (leads_nowhere || learner_.lost()) {
       hold_newest();
-      status |= Status::not_finite;
-    } else if (learner_.lost()) {
-      hold_newest();
-    }
-    motion_.x[0] = point_.x;
-    motion_.v[0] = point_.v;
-    if (learner_.started()) {
-      const Scalar a = learner_.law().acceleration(learner_.state(), point_, F_h[0]);
-      if (is_finite(a)) motion_.a[0] = a;
+    } else {
+      follow(F_h[0]);
     }
     return {motion_, status};
   }
@@ -92,7 +87,19 @@ class CurvePredictor {
     return abs(x) < Scalar(10) && abs(v) < Scalar(100) && abs(F) < Scalar(10000);
   }
 
-  void hold_newest() noexcept { point_ = {intake_.held().x[0], intake_.held().v[0], Scalar{0}, {}}; }
+  void hold_newest() noexcept {
+    const auto& held = intake_.held();
+    point_ = {held.x[0], held.v[0], Scalar{0}, {}};
+    if (learner_.started()) motion_ = {held.x, held.v, held.a};
+  }
+
+  void follow(const Scalar& F) noexcept {
+    motion_.x[0] = point_.x;
+    motion_.v[0] = point_.v;
+    if (!learner_.started()) return;
+    const Scalar a = learner_.law().acceleration(learner_.state(), point_, F);
+    if (is_finite(a)) motion_.a[0] = a;
+  }
 
   // From the newest sample to now; from the first tick that is remembered, where it was taken before that.
   Status replay() noexcept {
