@@ -19,7 +19,7 @@ namespace limpid {
 /// branches that relax, with dry friction, and with both; weighted by what each had issued. None of the three is best
 /// in all tissues: where there is no friction its bristle is mistaken for a branch, and the other way round.
 ///
-/// 0.84 MB, bounded: `make_tissue_predictor` puts it on the heap.
+/// 0.88 MB, bounded: `make_tissue_predictor` puts it on the heap.
 /// @realtime  as CurvePredictor, three times
 template <Real Scalar = double>
 using TissuePredictor =
