@@ -39,9 +39,8 @@ namespace limpid {
 /// the law has one, and is learnt anew from the first force on. See TissueLaw for the law.
 /// @tparam Law       TissueLaw
 /// @tparam Capacity  ticks between two samples at most; where there are more, learning starts again from the sample
-/// @realtime         no allocation, no throw for built-in scalars. All at the sample: for each iteration a replay of
-/// some
-///                   700 flops a tick and, where the interval spans the whole range, 6 states^2; 6 states^2 once
+/// @realtime         no allocation, no throw for built-in scalars. All at the sample: a replay for each iteration, 700
+///                   flops a tick and up to 6 states^2; 6 states^2 once
 template <typename Law = TissueLaw<>, std::size_t Capacity = 512>
 class TissueLearner {
  public:
@@ -75,9 +74,8 @@ class TissueLearner {
   }
   [[nodiscard]] Time taken() const noexcept { return taken_; }
 
-  /// Whether nothing is known by which to predict: the tool is free, and what it will meet has not been felt; or no law
-  /// near the one that is known explains the last sample, or the last
-  /// few came too far apart to be replayed.
+  /// Whether nothing is known by which to predict: no sample yet; a free tool has felt nothing; no law near the one
+  /// that is known explains the last sample; or the last few came too far apart to be replayed.
   [[nodiscard]] bool lost() const noexcept { return !touched_ || unexplained_; }
 
   /// Takes in a sample, newer than the one before.

@@ -68,7 +68,7 @@ class CurvePredictor {
       learner_.learn({intake_.taken(), sample.x[0], sample.v[0], sample.force[0]}, forces_);
       point_ = learner_.newest();
       status |= replay();
-    } else if (learner_.started()) {
+    } else if (!learner_.lost()) {
       step_to(forces_.size() - 1);
     }
     const bool leads_nowhere = !moderate(point_.x, point_.v, Scalar{0});
