@@ -138,8 +138,8 @@ std::vector<Method> from_counts() {
   const auto filter = [&](const std::string& name, bool is_default, auto make) {
     add_filter(methods, name, is_default, exact, Reading::counts, make);
   };
-  filter("(5.3), 4 Hz", true, []<typename S>(std::type_identity<S>) { return FilteredDerivative<axes, S>(); });
-  filter("(5.3), 20 Hz", false, []<typename S>(std::type_identity<S>) { return filter_5_3<S>(S(796) / S(100'000)); });
+  filter("(5.3), 4 Hz", false, []<typename S>(std::type_identity<S>) { return filter_5_3<S>(S(398) / S(10'000)); });
+  filter("(5.3), 20 Hz", true, []<typename S>(std::type_identity<S>) { return FilteredDerivative<axes, S>(); });
   filter("(5.3), 80 Hz", false, []<typename S>(std::type_identity<S>) { return filter_5_3<S>(S(199) / S(100'000)); });
   filter("difference, low-pass of 4 Hz", false,
          []<typename S>(std::type_identity<S>) { return SmoothedDifference<S>(); });
@@ -175,7 +175,7 @@ std::vector<Method> discretisations() {
   const auto filter = [&](const std::string& name, bool is_default, auto make) {
     add_filter(methods, name, is_default, exact, Reading::smooth, make);
   };
-  filter("exact", true, []<typename S>(std::type_identity<S>) { return FilteredDerivative<axes, S>(); });
+  filter("exact", true, []<typename S>(std::type_identity<S>) { return filter_5_3<S>(S(398) / S(10'000)); });
   filter("explicit Euler", false, []<typename S>(std::type_identity<S>) {
     return RuledDerivative<Rule::explicit_euler, axes, S>(S(398) / S(10'000));
   });

@@ -178,7 +178,7 @@ TEST_CASE("the realistic motors saturate at Table 5.1, and say so") {
 
 TEST_CASE("realistic angles come in steps of 4e-4 rad, and rates through the 4 Hz filter from them") {
   SimulatedOmni<> omni({.q0 = start, .realism = Realism::realistic});
-  limpid::FilteredDerivative<3> filter;
+  limpid::FilteredDerivative<3> filter({.time_constant = 0.0398});
   (void)omni.write(safe({0.2, 0.2, -0.1}));
   for (int k = 0; k <= 100; ++k) {
     (void)omni.advance(k * 1ms, none);

@@ -49,8 +49,8 @@ TEST_CASE_TEMPLATE("of a ramp of slope m it gives m (1 - exp(-t/tau)), over regu
 }
 
 TEST_CASE("a sine of 4 Hz comes out with the gain and the lag of (5.3)") {
-  FilteredDerivative<1> derivative;
   constexpr double omega = 2 * std::numbers::pi * 4, tau = 0.0398;
+  FilteredDerivative<1> derivative({.time_constant = tau});
   double worst = 0;
   for (int tick = 0; tick < 3000; ++tick) {
     const double t = tick * 1e-3;
@@ -61,6 +61,11 @@ TEST_CASE("a sine of 4 Hz comes out with the gain and the lag of (5.3)") {
   }
   // linear interpolation lowers a sine by (omega h)^2/12 = 5.3e-5 on average
   CHECK(worst < 6e-5);
+}
+
+TEST_CASE("where nothing is asked for the cut-off is 20 Hz") {
+  const double tau = FilteredDerivative<1>::Settings{}.time_constant;
+  CHECK(std::abs(2 * std::numbers::pi * 20 * tau - 1) < 5e-4);  // tau has three digits
 }
 
 TEST_CASE("an input that is not finite changes nothing") {
