@@ -17,6 +17,7 @@
 #include <limpid/core/lane_power.hpp>
 #include <limpid/core/lane_select.hpp>
 #include <limpid/core/lanes.hpp>
+#include <limpid/core/latest_value.hpp>
 #include <limpid/core/quad.hpp>
 #include <limpid/core/real.hpp>
 #include <limpid/core/second_order_step.hpp>

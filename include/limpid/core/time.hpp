@@ -44,6 +44,10 @@ template <Real Scalar>
   return static_cast<Scalar>((time / 2 - from / 2).count()) / static_cast<Scalar>((to / 2 - from / 2).count());
 }
 
+/// Time by the machine's monotonic clock, CLOCK_MONOTONIC: one origin for all threads and processes of a machine.
+/// @realtime  no allocation, no throw
+[[nodiscard]] inline Time steady_now() noexcept { return std::chrono::steady_clock::now().time_since_epoch(); }
+
 /// The nearest duration to `seconds`, which must be finite and below 292 years.
 [[nodiscard]] inline Duration from_seconds(double seconds) { return Duration{std::llround(seconds * 1e9)}; }
 
