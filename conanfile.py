@@ -18,7 +18,7 @@ class Limpid(ConanFile):
     package_type = "header-library"
     settings = "os", "arch", "compiler", "build_type"
     default_options = {"boost/*:header_only": True}
-    exports_sources = "include/*", "LICENSE"
+    exports_sources = "include/*", "udev/*", "LICENSE"
     no_copy_source = True
     test_package_folder = "test/conan"
 
@@ -41,6 +41,7 @@ class Limpid(ConanFile):
 
     def package(self):
         copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
+        copy(self, "*.rules", os.path.join(self.source_folder, "udev"), os.path.join(self.package_folder, "res"))
         copy(self, "*.hpp", os.path.join(self.source_folder, "include"), os.path.join(self.package_folder, "include"))
 
     def package_info(self):

@@ -14,4 +14,5 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/limpid-config-version.cm
                                  ARCH_INDEPENDENT)
 install(FILES "${PROJECT_BINARY_DIR}/limpid-config.cmake" "${PROJECT_BINARY_DIR}/limpid-config-version.cmake"
         DESTINATION "${limpid_package_dir}")
+install(FILES "${PROJECT_SOURCE_DIR}/udev/60-limpid-usb.rules" DESTINATION "${CMAKE_INSTALL_DATADIR}/limpid")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -24,9 +24,17 @@ function(limpid_brings_eigen name result)
   set(${result} ${brings} PARENT_SCOPE)
 endfunction()
 
+# Where libusb is not, what needs it cannot be compiled.
+set(usb_library "")
+if(TARGET limpid::usb)
+  set(usb_library limpid::usb)
+else()
+  list(FILTER limpid_headers EXCLUDE REGEX "/device/usb/")
+endif()
+
 # What brings <Eigen/Core> takes it precompiled, and nothing else with it; the other headers take nothing.
 add_library(limpid_headers_alone OBJECT)
-target_link_libraries(limpid_headers_alone PRIVATE limpid_developer)
+target_link_libraries(limpid_headers_alone PRIVATE limpid_developer ${usb_library})
 target_precompile_headers(limpid_headers_alone PRIVATE <Eigen/Core>)
 foreach(header IN LISTS limpid_headers)
   cmake_path(RELATIVE_PATH header BASE_DIRECTORY "${PROJECT_SOURCE_DIR}/include" OUTPUT_VARIABLE name)
@@ -48,5 +56,5 @@ file(CONFIGURE OUTPUT all_headers.cpp CONTENT "${all_headers}" @ONLY)
 file(CONFIGURE OUTPUT all_headers_again.cpp CONTENT "${all_headers}\nint main() {}\n" @ONLY)
 add_executable(limpid_two_units "${CMAKE_CURRENT_BINARY_DIR}/all_headers.cpp"
                                 "${CMAKE_CURRENT_BINARY_DIR}/all_headers_again.cpp")
-target_link_libraries(limpid_two_units PRIVATE limpid_developer)
+target_link_libraries(limpid_two_units PRIVATE limpid_developer ${usb_library})
 add_test(NAME headers.two_units COMMAND limpid_two_units)

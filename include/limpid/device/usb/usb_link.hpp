@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limpid/core/expect.hpp>
+#include <limpid/core/latest_value.hpp>
+#include <limpid/core/status.hpp>
+#include <limpid/core/time.hpp>
+#include <limpid/device/usb/usb_counters.hpp>
+#include <limpid/device/usb/usb_device.hpp>
+#include <limpid/device/usb/usb_fault.hpp>
+#include <limpid/device/usb/usb_protocol.hpp>
+#include <limpid/device/usb/usb_stream.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace limpid {
+
+struct UsbLinkSettings {
+  std::string path{};                                        ///< of the device, "1-2.4"; empty: there is only one
+  std::vector<UsbIdentity> identities{};                     ///< of the devices to serve; empty: the protocol's
+  Duration device_watchdog = std::chrono::milliseconds(20);  ///< what the device is told, 1 ms to 1 s
+  Duration host_watchdog = std::chrono::milliseconds(20);    ///< between commands of the loop, 2 ms to 1 s
+  Duration stale_after = std::chrono::milliseconds(10);      ///< without a new state, 2 ms to 1 s
+  Duration poll = std::chrono::microseconds(250);            ///< how often a new command is looked for, 50 us to 1 ms
+  Duration search_every = std::chrono::milliseconds(100);    ///< for a device that went away, 10 ms to 10 s
+};
+
+/// What the loop reads of a device.
+template <typename State>
+struct UsbReading {
+  State state{};                      ///< the newest
+  Time stamp{};                       ///< when it came, by `steady_now`
+  std::uint64_t count = 0;            ///< of states up to this one
+  bool fresh = false;                 ///< whether it came since the last reading
+  Status status = Status::no_sample;  ///< no_sample, stale, disconnected, fault
+};
+
+/// A device on USB that says and hears protocol P, by libusb-1.0: a thread of its own handles all that libusb does, and
+/// exchanges the newest state and command with the loop, which never waits and never calls the system.
+///
+/// A command goes out within `poll`. The device has its own watchdog, which this needs; where the loop gives no command
+/// for `host_watchdog`, no state comes for `stale_after`, no command gets through, or the device goes away, the link
+/// sends what takes its motors off, latches the fault and drops all commands until `clear` was called and all is well
+/// again. A device that went away is looked for, opened again, and has its motors off. The destructor takes them off,
+/// twice.
+/// @realtime  read, write, fault, clear: no allocation, no throw, no system call. All else is not for the loop
+template <UsbProtocol P>
+class UsbLink {
+ public:
+  using State = typename P::State;
+  using Command = typename P::Command;
+  using Reading = UsbReading<State>;
+
+  /// Opens the device.
+  /// @throws std::invalid_argument  where a setting cannot serve
+  /// @throws UsbError               where no device, or more than one, can be opened
+  explicit UsbLink(const UsbLinkSettings& settings = {}) : settings_{checked(settings)}, context_{make_usb_context()} {
+    if (settings_.identities.empty()) settings_.identities.assign(P::identities.begin(), P::identities.end());
+    open();
+    thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+  }
+  UsbLink(const UsbLink&) = delete;
+  UsbLink& operator=(const UsbLink&) = delete;
+
+  /// By the loop. @param now  by `steady_now`
+  [[nodiscard]] Reading read(Time now) noexcept {
+    Reading reading;
+    reading.fresh = states_.take();
+    const Received& received = states_.value();
+    reading.state = received.state;
+    reading.stamp = received.stamp;
+    reading.count = received.count;
+    reading.status = when(received.count == 0, Status::no_sample) |
+                     when(received.count > 0 && elapsed(now, received.stamp) > settings_.stale_after, Status::stale) |
+                     when(!connected(), Status::disconnected) | when(fault() != UsbFault::none, Status::fault);
+    return reading;
+  }
+
+  /// By the loop: to be sent; the newest replaces what was not sent yet.
+  /// @return  disconnected, fault: it will not be sent
+  Status write(const Command& command) noexcept {
+    orders_.write({command, arming_, true});
+    return when(!connected(), Status::disconnected) | when(fault() != UsbFault::none, Status::fault);
+  }
+
+  /// By the loop: ends a latched fault, deliberately, once its cause has gone; until then it stays. Motors are off
+  /// until the next command.
+  void clear() noexcept {
+    ++arming_;
+    orders_.write({P::safe(), arming_, false});
+  }
+
+  [[nodiscard]] UsbFault fault() const noexcept { return fault_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool connected() const noexcept { return connected_.load(std::memory_order_acquire); }
+  [[nodiscard]] const UsbCounters& counters() const noexcept { return counters_; }
+
+ private:
+  struct Received {
+    State state{};
+    Time stamp{};
+    std::uint64_t count = 0;
+  };
+  struct Order {
+    Command command = P::safe();
+    std::uint32_t arming = 0;  // how often the loop had cleared a fault
+    bool live = false;         // whether it is the loop's, and not what `clear` leaves
+  };
+
+  static UsbLinkSettings checked(const UsbLinkSettings& settings) {
+    using namespace std::chrono_literals;
+    const auto within = [](Duration value, Duration least, Duration most, const char* field, const char* words) {
+      expect(value >= least && value <= most, std::string("UsbLink: ") + field, words, value);
+    };
+    within(settings.device_watchdog, 1ms, 1s, "device_watchdog", "from 1 ms to 1 s");
+    within(settings.host_watchdog, 2ms, 1s, "host_watchdog", "from 2 ms to 1 s");
+    within(settings.stale_after, 2ms, 1s, "stale_after", "from 2 ms to 1 s");
+    within(settings.poll, 50us, 1ms, "poll", "from 50 us to 1 ms");
+    within(settings.search_every, 10ms, 10s, "search_every", "from 10 ms to 10 s");
+    return settings;
+  }
+
+  void open() {
+    const auto present = list_usb_devices(context_.get());
+    auto handle = std::make_unique<UsbHandle>(choose_usb_device(present, settings_.identities, settings_.path),
+                                              P::interface_number);
+    handle->prepare(P::init());
+    last_state_.reset();
+    state_at_ = heard_at_ = steady_now();
+    stream_ = std::make_unique<detail::UsbStream<P>>(context_.get(), std::move(handle), counters_,
+                                                     [this](std::span<const std::byte> bytes) { receive(bytes); });
+    arrived_ = 0;
+    connected_.store(true, std::memory_order_release);
+  }
+
+  void serve(const std::stop_token& stop) noexcept {
+    const auto poll = std::chrono::duration_cast<std::chrono::microseconds>(settings_.poll);
+    while (!stop.stop_requested()) {
+      if (!stream_) {
+        search();
+        continue;
+      }
+      stream_->handle_events(poll);
+      const Time now = steady_now();
+      take_order(now);
+      watch(now);
+      send_due(now);
+      if (stream_->gone()) lose();
+    }
+    if (stream_) leave();
+    stream_.reset();
+  }
+
+  // Motors off, twice.
+  void leave() noexcept {
+    for (int time = 0; time < 2 && !stream_->gone(); ++time) {
+      const Time end = steady_now() + std::chrono::milliseconds(50);
+      bool sent = false;
+      while ((!sent || !stream_->all_sent()) && !stream_->gone() && steady_now() < end) {
+        sent = sent || stream_->send(P::encode(P::safe(), ++sequence_, settings_.device_watchdog));
+        stream_->handle_events(std::chrono::microseconds(500));
+      }
+    }
+  }
+
+  void lose() noexcept {
+    connected_.store(false, std::memory_order_release);
+    counters_.add(UsbCount::disconnects);
+    latch(UsbFault::disconnected);
+    stream_.reset();
+  }
+
+  void search() noexcept {
+    std::this_thread::sleep_for(settings_.search_every);
+    timeval now{};
+    (void)libusb_handle_events_timeout_completed(context_.get(), &now, nullptr);
+    (void)orders_.take();  // what the loop wanted meanwhile
+    seen_arming_ = orders_.value().arming;
+    required_arming_ = seen_arming_ + 1;
+    try {
+      open();
+    } catch (const std::exception&) {
+      stream_.reset();  // not there yet, or not yet ours: again later
+    }
+  }
+
+  void receive(std::span<const std::byte> bytes) noexcept {
+    const auto frame = P::decode(bytes);
+    if (frame.fault == FrameFault::empty) return;
+    if (frame.fault != FrameFault::none) return counters_.add(UsbCount::damaged);
+    const Time now = steady_now();
+    const std::uint32_t steps = last_state_ ? P::steps(*last_state_, frame.state) : 1;
+    const bool backwards = steps == 0 || steps > backwards_from;
+    // A device that has begun to count anew is believed once it is stale.
+    if (backwards && elapsed(now, state_at_) < settings_.stale_after) return counters_.add(UsbCount::repeated);
+    if (!backwards) counters_.add(UsbCount::lost, steps - 1);
+    counters_.add(UsbCount::states);
+    last_state_ = frame.state;
+    state_at_ = now;
+    states_.write({frame.state, now, ++count_});
+  }
+
+  void take_order(Time now) noexcept {
+    if (!orders_.take()) return;
+    const Order& order = orders_.value();
+    seen_arming_ = order.arming;
+    if (fault() != UsbFault::none && order.arming >= required_arming_) {
+      fault_.store(UsbFault::none, std::memory_order_release);
+      heard_at_ = now;  // the watch below latches again where nothing has changed
+    }
+    ordered_at_ = now;
+    watching_ = watching_ || order.live;
+    due_ = true;
+  }
+
+  void watch(Time now) noexcept {
+    if (stream_->arrived() != arrived_ || sent_at_ < heard_at_) {
+      arrived_ = stream_->arrived();
+      heard_at_ = now;
+    }
+    if (last_state_ && elapsed(now, state_at_) > settings_.stale_after) latch(UsbFault::stale);
+    if (watching_ && elapsed(now, ordered_at_) > settings_.host_watchdog) latch(UsbFault::loop_silent);
+    if (elapsed(now, heard_at_) > settings_.host_watchdog) latch(UsbFault::device_silent);
+  }
+
+  void latch(UsbFault reason) noexcept {
+    if (fault() != UsbFault::none) return;
+    counters_.add(UsbCount::faults);
+    required_arming_ = seen_arming_ + 1;
+    watching_ = false;  // from the next command on, again
+    due_ = true;        // what takes the motors off
+    fault_.store(reason, std::memory_order_release);
+  }
+
+  // The loop's newest command, or what takes the motors off; that again and again, where there is none of the loop's.
+  void send_due(Time now) noexcept {
+    const bool allowed = fault() == UsbFault::none && watching_;
+    const Duration again = P::polled ? std::chrono::milliseconds(1) : std::chrono::milliseconds(5);
+    if (!due_ && (allowed && !P::polled)) return;
+    if (!due_ && elapsed(now, sent_at_) < again) return;
+    const Command& command = allowed ? orders_.value().command : safe_;
+    if (!stream_->send(P::encode(command, sequence_ + 1, settings_.device_watchdog))) {
+      if (due_ && allowed) counters_.add(UsbCount::dropped);
+      due_ = due_ && !allowed;  // what takes the motors off is tried until it goes
+      return;
+    }
+    if (due_ && !allowed && watching_) counters_.add(UsbCount::dropped);
+    ++sequence_;
+    sent_at_ = now;
+    due_ = false;
+  }
+
+  static constexpr std::uint32_t backwards_from = 1U << 31U;
+
+  UsbLinkSettings settings_;
+  UsbCounters counters_;
+  LatestValue<Received> states_;
+  LatestValue<Order> orders_;
+  std::atomic<UsbFault> fault_{UsbFault::none};
+  std::atomic<bool> connected_{false};
+  std::uint32_t arming_ = 0;  // the loop's
+
+  // The thread's.
+  UsbContext context_;
+  std::unique_ptr<detail::UsbStream<P>> stream_;
+  std::optional<State> last_state_;
+  Command safe_ = P::safe();
+  Time state_at_{}, ordered_at_{}, sent_at_{}, heard_at_{};
+  std::uint64_t count_ = 0, arrived_ = 0;
+  std::uint32_t sequence_ = 0, seen_arming_ = 0, required_arming_ = 0;
+  bool watching_ = false;  // whether the loop has given a command since the last fault
+  bool due_ = false;       // something new is to be sent
+
+  std::jthread thread_;  // the last: it ends before what it uses
+};
+
+}  // namespace limpid
