@@ -28,8 +28,9 @@ class FilteredDerivative {
  public:
   using Vector = Eigen::Array<Scalar, Axes, 1>;
 
-  /// The thesis has 4 Hz, tau = .0398 s, for rates from encoder counts: 50 ms late. In steps of 4e-4 rad at 1 kHz 20 Hz is
-  /// as fast and errs by a fourth of that (bench/time_error); where a model of the arm is known, VelocityObserver by less.
+  /// The thesis has 4 Hz, tau = .0398 s, for rates from encoder counts: 50 ms late. In steps of 4e-4 rad at 1 kHz 20 Hz
+  /// is as fast and errs by a fourth of that (bench/time_error); where a model of the arm is known, VelocityObserver by
+  /// less.
   struct Settings {
     Scalar time_constant = Scalar(796) / Scalar(100'000);  ///< tau, s, > 0; .00796: 20 Hz
   };
