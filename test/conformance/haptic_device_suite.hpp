@@ -6,19 +6,21 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
+#include <concepts>
 
 namespace limpid::test {
 
 /// Puts a device through the laws of the HapticDevice concept.
 /// @param pass    pass(now): lets the device's time pass up to `now`, free of outside forces
 /// @param unplug  unplug(): takes the device away; leave out where it cannot be
+/// @param start   of the device's time
 template <HapticDevice D, typename Pass>
-void check_haptic_device(D& device, Pass&& pass) {
+void check_haptic_device(D& device, Pass&& pass, Time start = Time{}) {
   using Traits = HapticDeviceTraits<D>;
   const SafeTorque<Traits::joints, typename Traits::Scalar> none;
   Time last_stamp{-1};
   for (int k = 1; k <= 50; ++k) {
-    const Time now = k * std::chrono::milliseconds(1);
+    const Time now = start + k * std::chrono::milliseconds(1);
     pass(now);
     const auto state = Traits::read(device, now), again = Traits::read(device, now);
     CHECK(is_finite(state));
@@ -34,14 +36,15 @@ void check_haptic_device(D& device, Pass&& pass) {
 }
 
 template <HapticDevice D, typename Pass, typename Unplug>
-void check_haptic_device(D& device, Pass&& pass, Unplug&& unplug) {
+requires std::invocable<Unplug>
+void check_haptic_device(D& device, Pass&& pass, Unplug&& unplug, Time start = Time{}) {
   using Traits = HapticDeviceTraits<D>;
-  check_haptic_device(device, pass);
-  const auto known = Traits::read(device, std::chrono::milliseconds(50));
+  check_haptic_device(device, pass, start);
+  const auto known = Traits::read(device, start + std::chrono::milliseconds(50));
   unplug();
-  pass(std::chrono::milliseconds(51));
+  pass(start + std::chrono::milliseconds(51));
   CHECK(has(Traits::write(device, {}), Status::disconnected));
-  const auto state = Traits::read(device, std::chrono::milliseconds(51));
+  const auto state = Traits::read(device, start + std::chrono::milliseconds(51));
   CHECK(has(state.status, Status::disconnected));
   CHECK(state.q == known.q);  // the last state known
   CHECK(state.qdot == known.qdot);

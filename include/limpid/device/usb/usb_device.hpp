@@ -87,6 +87,14 @@ struct UsbPresence {
   return std::find(touch.begin(), touch.end(), identity) != touch.end();
 }
 
+/// Whether a device that was listed has gone away since: libusb hears of it from udev, later or never.
+[[nodiscard]] inline bool has_gone(const UsbPresence& listed) noexcept {
+  libusb_device_handle* handle = nullptr;
+  const int code = libusb_open(listed.device.get(), &handle);
+  if (code == LIBUSB_SUCCESS) libusb_close(handle);
+  return code == LIBUSB_ERROR_NO_DEVICE;
+}
+
 /// The one device of these identities, or the one of them at `path`.
 /// @throws UsbError  not_found, several, refused
 [[nodiscard]] inline UsbPresence choose_usb_device(const std::vector<UsbPresence>& present,
@@ -102,6 +110,7 @@ struct UsbPresence {
     there += (there.empty() ? "" : ", ") + each.path;
     if (path.empty() || each.path == path) fitting.push_back(each);
   }
+  if (fitting.size() > 1) std::erase_if(fitting, has_gone);
   if (fitting.size() == 1) return fitting.front();
   if (fitting.size() > 1) {
     throw UsbError(UsbFailure::several,

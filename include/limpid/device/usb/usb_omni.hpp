@@ -134,7 +134,7 @@ class UsbOmni {
     seen_.qdot = rates_.update(device_clock_, seen_.q.array()).value;
     seen_.gimbal = settings_.calibration.gimbal(newest_.gimbal_a, newest_.gimbal_b);
     seen_.buttons = (newest_.pressed[0] ? 1U : 0U) | (newest_.pressed[1] ? 2U : 0U);
-    seen_.stamp = stamp;
+    seen_.stamp = std::min(stamp, now_);  // it may have come after `now` was taken
   }
 
   // Whether an encoder has turned faster since a state so long ago than a joint can.
