@@ -249,6 +249,10 @@
 #include <limpid/loop/diagram.hpp>
 #include <limpid/loop/graph.hpp>
 #include <limpid/loop/loop.hpp>
+#include <limpid/loop/realtime/periodic_loop.hpp>
+#include <limpid/loop/realtime/realtime_report.hpp>
+#include <limpid/loop/realtime/realtime_thread.hpp>
+#include <limpid/loop/realtime/steady_clock.hpp>
 #include <limpid/loop/result.hpp>
 #include <limpid/loop/signal.hpp>
 #include <limpid/loop/tick.hpp>
