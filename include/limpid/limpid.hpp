@@ -253,6 +253,7 @@
 #include <limpid/loop/realtime/realtime_report.hpp>
 #include <limpid/loop/realtime/realtime_thread.hpp>
 #include <limpid/loop/realtime/steady_clock.hpp>
+#include <limpid/loop/realtime/stop_on_signal.hpp>
 #include <limpid/loop/result.hpp>
 #include <limpid/loop/signal.hpp>
 #include <limpid/loop/tick.hpp>
