@@ -20,6 +20,7 @@
 #include <limpid/core/latest_value.hpp>
 #include <limpid/core/quad.hpp>
 #include <limpid/core/real.hpp>
+#include <limpid/core/recent_values.hpp>
 #include <limpid/core/second_order_step.hpp>
 #include <limpid/core/small_step_series.hpp>
 #include <limpid/core/status.hpp>
