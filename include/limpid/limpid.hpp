@@ -221,6 +221,7 @@
 #include <limpid/control/compensated_tracking.hpp>
 #include <limpid/control/computed_torque.hpp>
 #include <limpid/control/disturbance_observer.hpp>
+#include <limpid/control/fade.hpp>
 #include <limpid/control/fault_reason.hpp>
 #include <limpid/control/friction_compensator.hpp>
 #include <limpid/control/friction_identifier.hpp>
