@@ -10,7 +10,7 @@ set(estimation_may_include signal environment)
 set(prediction_may_include signal environment estimation)
 set(robot_may_include "")
 set(control_may_include signal robot)
-set(loop_may_include evaluation) # its histogram of latencies
+set(loop_may_include signal environment evaluation) # realtime/: samples of a tool elsewhere, histograms of latency
 set(device_may_include signal robot control) # of control, what reaches the motors: SafeTorque
 set(evaluation_may_include "")
 set(design_may_include environment signal prediction control) # of prediction, the gains; of control, the observers

@@ -251,9 +251,12 @@
 #include <limpid/loop/diagram.hpp>
 #include <limpid/loop/graph.hpp>
 #include <limpid/loop/loop.hpp>
+#include <limpid/loop/realtime/environment_exchange.hpp>
+#include <limpid/loop/realtime/environment_link.hpp>
 #include <limpid/loop/realtime/periodic_loop.hpp>
 #include <limpid/loop/realtime/realtime_report.hpp>
 #include <limpid/loop/realtime/realtime_thread.hpp>
+#include <limpid/loop/realtime/slow_environment.hpp>
 #include <limpid/loop/realtime/steady_clock.hpp>
 #include <limpid/loop/realtime/stop_on_signal.hpp>
 #include <limpid/loop/result.hpp>

@@ -55,7 +55,7 @@ class RecentValues {
     const Place& place = places_[number % Capacity];
     std::array<std::uint64_t, words> of_value;  // NOLINT(*-member-init): filled at once
     for (std::size_t i = 0; i < words; ++i) of_value[i] = place[i].load(std::memory_order_acquire);
-    std::memcpy(&value, of_value.data(), sizeof(T));
+    std::memcpy(static_cast<void*>(&value), of_value.data(), sizeof(T));
     return begun_.load(std::memory_order_relaxed) <= number + Capacity;
   }
 
