@@ -256,6 +256,7 @@
 #include <limpid/loop/realtime/periodic_loop.hpp>
 #include <limpid/loop/realtime/realtime_report.hpp>
 #include <limpid/loop/realtime/realtime_thread.hpp>
+#include <limpid/loop/realtime/shared_object.hpp>
 #include <limpid/loop/realtime/slow_environment.hpp>
 #include <limpid/loop/realtime/steady_clock.hpp>
 #include <limpid/loop/realtime/stop_on_signal.hpp>
