@@ -29,6 +29,9 @@ class LatestValue {
 
   LatestValue(const LatestValue&) = delete;
   LatestValue& operator=(const LatestValue&) = delete;
+  LatestValue(LatestValue&&) = delete;
+  LatestValue& operator=(LatestValue&&) = delete;
+  ~LatestValue() = default;
 
   /// By the writer.
   void write(const T& value) noexcept {
