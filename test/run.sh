@@ -38,15 +38,15 @@ cmake --build build/fuzz --target limpid_fuzz
 ctest --test-dir build/fuzz --label-regex '^fuzz$' --output-on-failure --no-tests=error
 
 # The numerical core and its stress under the address and undefined behaviour sanitizers; of the thread sanitizer's, the
-# one part with threads. All tests under either: cmake --workflow --preset asan, or tsan. Clang compiles the first in half
+# two parts with threads. All tests under either: cmake --workflow --preset asan, or tsan. Clang compiles the first in half
 # the time and memory; its thread sanitizer does not let a program count allocations.
 cmake --preset asan -DCMAKE_CXX_COMPILER=clang++ -DLIMPID_BUILD_EXAMPLES=OFF
 cmake --build --preset asan --target limpid_test_core limpid_test_signal limpid_test_estimation \
-  limpid_test_prediction limpid_test_robot limpid_test_control limpid_test_stress
-ctest --preset asan --tests-regex '^(core|signal|estimation|prediction|robot|control|stress)[.]'
+  limpid_test_prediction limpid_test_robot limpid_test_control limpid_test_loop limpid_test_stress
+ctest --preset asan --tests-regex '^(core|signal|estimation|prediction|robot|control|loop|stress)[.]'
 cmake --preset tsan -DLIMPID_BUILD_EXAMPLES=OFF
-cmake --build --preset tsan --target limpid_test_design
-ctest --preset tsan --tests-regex '^design[.]map$'
+cmake --build --preset tsan --target limpid_test_design limpid_test_loop
+ctest --preset tsan --tests-regex '^(design[.]map$|loop[.])'
 
 cmake --preset release
 cmake --build --preset release --target stress
