@@ -63,34 +63,35 @@ const std::string& EmulatedBus::hub(unsigned bus) {
 std::string EmulatedBus::add_to_sysfs(const UsbSettings& settings, unsigned number, const std::string& node) {
   const bool is_hub = settings.device_class == 9;
   const unsigned minor = (settings.bus() - 1) * 128 + number - 1;
-  const std::vector<std::string> words{"busnum",
-                                       std::to_string(settings.bus()),
-                                       "devnum",
-                                       std::to_string(number),
-                                       "dev",
-                                       format("189:%u", minor),
-                                       "speed",
-                                       is_hub ? "480" : "12",
-                                       "idVendor",
-                                       format("%04x", settings.vendor),
-                                       "idProduct",
-                                       format("%04x", settings.product),
-                                       "bcdDevice",
-                                       format("%04x", settings.release),
-                                       "bDeviceClass",
-                                       format("%02x", settings.device_class),
-                                       "bConfigurationValue",
-                                       "1",
-                                       "bNumConfigurations",
-                                       "1",
-                                       "bNumInterfaces",
-                                       format("%2zu", settings.interfaces.size()),
-                                       "manufacturer",
-                                       settings.maker,
-                                       "product",
-                                       settings.name,
-                                       "serial",
-                                       settings.serial};
+  std::vector<std::string> words{"busnum",
+                                 std::to_string(settings.bus()),
+                                 "devnum",
+                                 std::to_string(number),
+                                 "dev",
+                                 format("189:%u", minor),
+                                 "speed",
+                                 is_hub ? "480" : "12",
+                                 "idVendor",
+                                 format("%04x", settings.vendor),
+                                 "idProduct",
+                                 format("%04x", settings.product),
+                                 "bcdDevice",
+                                 format("%04x", settings.release),
+                                 "bDeviceClass",
+                                 format("%02x", settings.device_class),
+                                 "bConfigurationValue",
+                                 "1",
+                                 "bNumConfigurations",
+                                 "1",
+                                 "bNumInterfaces",
+                                 format("%2zu", settings.interfaces.size()),
+                                 "manufacturer",
+                                 settings.maker,
+                                 "product",
+                                 settings.name,
+                                 "serial",
+                                 settings.serial};
+  for (std::size_t i = 1; i < words.size(); i += 2) words[i] += '\n';  // as sysfs has them
   std::vector<char*> attributes;
   for (const std::string& word : words) attributes.push_back(const_cast<char*>(word.c_str()));  // NOLINT: only read
   attributes.push_back(nullptr);
@@ -138,7 +139,8 @@ EmulatedBus::Plugged::Plugged(EmulatedBus& bus, const UsbSettings& settings) : b
 EmulatedBus::Plugged::~Plugged() {
   usbfs_->unplug();
   const std::lock_guard lock(bus_.mutex_);
-  umockdev_testbed_remove_device(bus_.testbed_.get(), sysfs_.c_str());  // sends "remove"
+  umockdev_testbed_uevent(bus_.testbed_.get(), sysfs_.c_str(), "remove");
+  umockdev_testbed_remove_device(bus_.testbed_.get(), sysfs_.c_str());
   GError* error = nullptr;
   umockdev_testbed_detach_ioctl(bus_.testbed_.get(), node_.c_str(), &error);
   g_clear_error(&error);

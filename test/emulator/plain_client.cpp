@@ -52,7 +52,9 @@ void PlainClient::ended(libusb_transfer* transfer) {
   client.ends_.push_back({transfer->status, Bytes(begin, begin + transfer->actual_length)});
   const bool over = transfer->status == LIBUSB_TRANSFER_CANCELLED || transfer->status == LIBUSB_TRANSFER_NO_DEVICE ||
                     transfer->status == LIBUSB_TRANSFER_STALL;
-  if (over || !client.again_ || libusb_submit_transfer(transfer) != 0) --client.going_;
+  const int answer = over || !client.again_ ? LIBUSB_ERROR_INTERRUPTED : libusb_submit_transfer(transfer);
+  if (answer == LIBUSB_ERROR_NO_DEVICE) client.ends_.push_back({LIBUSB_TRANSFER_NO_DEVICE, {}});  // went meanwhile
+  if (answer != 0) --client.going_;
   client.came_.notify_all();
 }
 

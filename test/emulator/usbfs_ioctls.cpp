@@ -60,9 +60,12 @@ int submit(Usbfs& usbfs, UMockdevIoctlClient* client, const Memory& memory) {
   return usbfs.submit(std::move(urb));
 }
 
-int reap(Usbfs& usbfs, UMockdevIoctlClient* client, const Memory& pointer) {
+// Where nothing is done, which is every second time, the client's memory is left alone: each look at it is a message.
+int reap(Usbfs& usbfs, UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
   std::optional<Urb> urb;
   if (const int none = usbfs.reap(client, urb); none != 0) return none;
+  const Memory pointer = resolve(argument, 0, sizeof(void*));
+  if (!pointer) return EFAULT;
   const auto memory = std::static_pointer_cast<UMockdevIoctlData>(urb->memory);
   auto& theirs = as<usbdevfs_urb>(memory);
   theirs.status = urb->status;
@@ -99,14 +102,13 @@ int answer(Usbfs& usbfs, UMockdevIoctlClient* client) {
   const auto request = umockdev_ioctl_client_get_request(client);
   if (request == USBDEVFS_DISCARDURB) return usbfs.discard(client, word(argument));
   if (request == USBDEVFS_RESET) return usbfs.reset();
+  if (request == USBDEVFS_REAPURBNDELAY || request == USBDEVFS_REAPURB)
+    return reap(usbfs, client, argument);  // no wait
   const Memory data = resolve(argument, 0, _IOC_SIZE(request));
   if (!data) return usbfs.present() != 0 ? ENODEV : ENOTTY;
   switch (request) {
     case USBDEVFS_SUBMITURB:
       return submit(usbfs, client, data);
-    case USBDEVFS_REAPURB:  // never held back: it would hold back all that the client asks on this file
-    case USBDEVFS_REAPURBNDELAY:
-      return reap(usbfs, client, data);
     case USBDEVFS_GET_CAPABILITIES:
       as<std::uint32_t>(data) = USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
                                 USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_BULK_SCATTER_GATHER |
@@ -139,9 +141,49 @@ int answer(Usbfs& usbfs, UMockdevIoctlClient* client) {
 
 using Shared = std::shared_ptr<Usbfs>;
 
-gboolean on_ioctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer shared) {
-  const int error = answer(**static_cast<Shared*>(shared), client);
+void complete(UMockdevIoctlClient* client, int error) {
   umockdev_ioctl_client_complete(client, error == 0 ? 0 : -1, error);
+}
+
+// umockdev learns a little later than the kernel would that a client has closed its file: until then an interface that
+// is free looks taken. So a claim is refused only after 50 ms of asking again.
+struct Claim {
+  Shared usbfs;
+  UMockdevIoctlClient* client;
+  int times_left = 50;
+};
+
+gboolean claim_again(gpointer asked) {
+  auto& claim = *static_cast<Claim*>(asked);
+  const int error = answer(*claim.usbfs, claim.client);
+  if (error == EBUSY && --claim.times_left > 0) return G_SOURCE_CONTINUE;
+  complete(claim.client, error);
+  return G_SOURCE_REMOVE;
+}
+
+void end_claim(gpointer asked) {
+  const std::unique_ptr<Claim> claim(static_cast<Claim*>(asked));
+  g_object_unref(claim->client);
+}
+
+void claim_later(const Shared& usbfs, UMockdevIoctlClient* client) {
+  g_object_ref(client);
+  auto claim = std::make_unique<Claim>(Claim{usbfs, client});
+  GSource* timer = g_timeout_source_new(1);
+  g_source_set_callback(timer, claim_again, claim.release(), end_claim);
+  g_source_attach(timer, g_main_context_get_thread_default());
+  g_source_unref(timer);
+}
+
+gboolean on_ioctl(UMockdevIoctlBase* /*base*/, UMockdevIoctlClient* client, gpointer shared) {
+  const Shared& usbfs = *static_cast<Shared*>(shared);
+  const auto request = umockdev_ioctl_client_get_request(client);
+  const int error = answer(*usbfs, client);
+  if (error == EBUSY && (request == USBDEVFS_CLAIMINTERFACE || request == USBDEVFS_DISCONNECT_CLAIM)) {
+    claim_later(usbfs, client);
+  } else {
+    complete(client, error);
+  }
   return TRUE;
 }
 
