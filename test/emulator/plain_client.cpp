@@ -2,6 +2,27 @@
 #include "plain_client.hpp"
 
 namespace limpid::emulator {
+namespace {
+
+// As libusb's synchronous calls have it.
+int error_of(libusb_transfer_status status) {
+  switch (status) {
+    case LIBUSB_TRANSFER_COMPLETED:
+      return 0;
+    case LIBUSB_TRANSFER_TIMED_OUT:
+      return LIBUSB_ERROR_TIMEOUT;
+    case LIBUSB_TRANSFER_STALL:
+      return LIBUSB_ERROR_PIPE;
+    case LIBUSB_TRANSFER_OVERFLOW:
+      return LIBUSB_ERROR_OVERFLOW;
+    case LIBUSB_TRANSFER_NO_DEVICE:
+      return LIBUSB_ERROR_NO_DEVICE;
+    default:
+      return LIBUSB_ERROR_IO;
+  }
+}
+
+}  // namespace
 
 std::string path_of(libusb_device* device) {
   std::array<std::uint8_t, 8> ports{};
@@ -91,8 +112,31 @@ std::optional<PlainClient::End> PlainClient::find(const std::function<bool(const
 }
 
 int PlainClient::send(Bytes bytes, unsigned timeout_ms, std::uint8_t endpoint) {
-  int sent = 0;
-  return libusb_interrupt_transfer(handle_, endpoint, bytes.data(), static_cast<int>(bytes.size()), &sent, timeout_ms);
+  Out out{this};
+  const std::unique_ptr<libusb_transfer, void (*)(libusb_transfer*)> transfer(libusb_alloc_transfer(0),
+                                                                              libusb_free_transfer);
+  libusb_fill_interrupt_transfer(transfer.get(), handle_, endpoint, bytes.data(), static_cast<int>(bytes.size()), sent,
+                                 &out, timeout_ms);
+  if (const int refused = libusb_submit_transfer(transfer.get()); refused != 0) return refused;
+  std::unique_lock lock(mutex_);
+  while (!out.status) {
+    if (thread_.joinable()) {
+      came_.wait(lock);
+      continue;
+    }
+    lock.unlock();
+    timeval wait{0, 20'000};
+    libusb_handle_events_timeout(context_, &wait);
+    lock.lock();
+  }
+  return error_of(*out.status);
+}
+
+void PlainClient::sent(libusb_transfer* transfer) {
+  auto& out = *static_cast<Out*>(transfer->user_data);
+  const std::lock_guard lock(out.client->mutex_);
+  out.status = transfer->status;
+  out.client->came_.notify_all();
 }
 
 void PlainClient::run() {

@@ -51,7 +51,7 @@ class PlainClient {
   std::optional<End> next();
   /// Ends from now on that satisfy `wanted`, at most 4000 looked at.
   std::optional<End> find(const std::function<bool(const End&)>& wanted);
-  /// An OUT transfer, synchronous; 0, or libusb's error.
+  /// Sends and waits; 0, or libusb's error. Not libusb's synchronous call, whose end the thread sanitizer cannot see.
   int send(Bytes bytes, unsigned timeout_ms = 500, std::uint8_t endpoint = 0x01);
 
   [[nodiscard]] libusb_device_handle* handle() const { return handle_; }
@@ -64,6 +64,12 @@ class PlainClient {
     std::array<std::uint8_t, 64> buffer;
   };
 
+  struct Out {
+    PlainClient* client;
+    std::optional<libusb_transfer_status> status{};
+  };
+
+  static void LIBUSB_CALL sent(libusb_transfer* transfer);
   static void LIBUSB_CALL ended(libusb_transfer* transfer);
   void run();
 
