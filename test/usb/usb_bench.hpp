@@ -41,9 +41,9 @@ struct UsbBench {
     settings.calibration.full_scale = emulated.arm.full_scale;
     settings.calibration.home = emulated.arm.home;
     settings.ramp = std::chrono::milliseconds(20);
-    // Ten times the defaults: what trips is the fault under test, not a machine that has other work too.
-    settings.link.device_watchdog = settings.link.host_watchdog = std::chrono::milliseconds(200);
-    settings.link.stale_after = std::chrono::milliseconds(100);
+    // Far beyond the defaults: what trips is the fault under test, not a machine that has other work too.
+    settings.link.device_watchdog = settings.link.host_watchdog = std::chrono::milliseconds(500);
+    settings.link.stale_after = std::chrono::milliseconds(300);
     return settings;
   }
 
@@ -74,6 +74,19 @@ struct UsbBench {
     if (!loop(device, wanted, [&](const auto&) { return device.calibrated(); })) return false;
     omni.set_docked(false);
     return loop(device, wanted, [&](const auto&) { return !device.docked() && omni.snapshot().motors_on; });
+  }
+
+  /// Clears the fault, again where its cause was still there, and starts.
+  bool clear_and_start(UsbOmni& device, const Vector& wanted) {
+    return loop(device, wanted,
+                [&, cleared = Time{}](const auto& seen) mutable {
+                  if (has(seen.status, Status::fault) && steady_now() - cleared > std::chrono::milliseconds(100)) {
+                    device.clear_fault();
+                    cleared = steady_now();
+                  }
+                  return !has(seen.status, Status::fault) && steady_now() - cleared > std::chrono::milliseconds(100);
+                }) &&
+           start(device, wanted);
   }
 
   emulator::EmulatedOmni::Settings emulated;

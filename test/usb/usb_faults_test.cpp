@@ -38,8 +38,7 @@ void check_start(UsbBench& bench, UsbOmni& omni) {
   const auto commands = bench.omni.snapshot().commands;  // motors stay off until the fault is cleared
   CHECK(bench.loop(omni, wanted, [&](const auto&) { return bench.omni.snapshot().commands > commands + 20; }));
   CHECK(bench.omni.snapshot().torque.isZero(0));
-  omni.clear_fault();
-  CHECK(bench.start(omni, wanted));
+  CHECK(bench.clear_and_start(omni, wanted));
   CHECK(bench.loop(omni, wanted, [&](const auto&) { return !bench.omni.snapshot().torque.isZero(0); }));
   CHECK(omni.fault() == UsbFault::none);
 }

@@ -5,17 +5,15 @@
 
 #include "emulator/emulated_bus.hpp"
 #include "emulator/emulated_omni.hpp"
+#include "emulator/without_rights.hpp"
 #include "usb/usb_bench.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 using limpid::OmniBridge, limpid::UsbError, limpid::UsbFailure;
-using limpid::emulator::EmulatedBus, limpid::emulator::EmulatedOmni;
+using limpid::emulator::EmulatedBus, limpid::emulator::EmulatedOmni, limpid::emulator::WithoutRights;
 using limpid::test::UsbBench;
 using Link = limpid::UsbLink<OmniBridge>;
 
@@ -109,23 +107,10 @@ TEST_CASE("a device that another program has is busy") {
 TEST_CASE("without the permission the error names the udev rule") {
   EmulatedBus bus;
   auto settings = at("1-1");
-  settings.mode = 0600;
+  settings.mode = WithoutRights::only_by_mode() ? 0 : 0600;
   const EmulatedOmni omni(bus, settings);
-  const pid_t child = ::fork();
-  REQUIRE(child >= 0);
-  if (child == 0) {  // a user of no rights; a machine's root may open all
-    constexpr uid_t nobody = 65534;
-    if (::geteuid() == 0 && ::setuid(nobody) != 0) ::_exit(3);
-    try {
-      const Link link;
-    } catch (const UsbError& error) {
-      const bool named = std::string(error.what()).find("60-limpid-usb.rules") != std::string::npos;
-      ::_exit(error.failure() == UsbFailure::permission && named ? 0 : 1);
-    }
-    ::_exit(2);
-  }
-  int state = 0;
-  REQUIRE(::waitpid(child, &state, 0) == child);
-  CHECK(WIFEXITED(state));
-  CHECK(WEXITSTATUS(state) == 0);
+  const WithoutRights nobody;
+  const auto [failure, words] = refusal();
+  CHECK(failure == UsbFailure::permission);
+  CHECK(words.find("60-limpid-usb.rules") != std::string::npos);
 }
