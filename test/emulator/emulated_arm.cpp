@@ -25,7 +25,7 @@ std::int16_t wrapped(double count) { return static_cast<std::int16_t>(std::llrou
 
 }  // namespace
 
-JointLimits<3> EmulatedArm::Unlimited::limits() const noexcept {
+JointLimits<3> EmulatedArm::Unlimited::limits() noexcept {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {.lower = unlimited(-infinity),
           .upper = unlimited(infinity),

@@ -31,8 +31,8 @@ class EmulatedArm {
 
   /// Holds the torque of the converters from now on.
   void write(const std::array<std::uint16_t, 3>& dac);
-  /// Moves on by `step`; held still by the hand until `let_go`, from when the time of its force counts.
-  void advance(Duration step);
+  /// Moves on by `dt`; held still by the hand until `let_go`, from when the time of its force counts.
+  void advance(Duration dt);
   void let_go() { free_ = true; }
   void set_force(Force force) { settings_.force = std::move(force); }
   /// The encoders count from zero where the arm is.
@@ -49,7 +49,7 @@ class EmulatedArm {
   // Nothing limits a board's torque but its motors: an Omni without limits makes the torques.
   struct Unlimited : Omni<double> {
     Unlimited() = default;  // no aggregate: the constructor of Omni is explicit
-    [[nodiscard]] JointLimits<3> limits() const noexcept;
+    [[nodiscard]] static JointLimits<3> limits() noexcept;
   };
 
   Settings settings_;

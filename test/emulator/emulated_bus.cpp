@@ -63,13 +63,13 @@ EmulatedBus::EmulatedBus() {
 
 const std::string& EmulatedBus::hub(unsigned bus) {
   std::string& sysfs = hubs_[bus];
-  if (sysfs.empty()) sysfs = add_to_sysfs(root_hub(bus), 1, node_of(bus, 1));
+  if (sysfs.empty()) sysfs = add_to_sysfs(root_hub(bus), 1, nullptr);
   return sysfs;
 }
 
 // Without DEVTYPE the event that umockdev sends by itself reaches no listener: the node is not there yet.
-std::string EmulatedBus::add_to_sysfs(const UsbSettings& settings, unsigned number, const std::string& node) {
-  const bool is_hub = settings.device_class == 9;
+std::string EmulatedBus::add_to_sysfs(const UsbSettings& settings, unsigned number, const char* parent) {
+  const bool is_hub = parent == nullptr;
   const unsigned minor = (settings.bus() - 1) * 128 + number - 1;
   std::vector<std::string> words{"busnum",
                                  std::to_string(settings.bus()),
@@ -104,7 +104,6 @@ std::string EmulatedBus::add_to_sysfs(const UsbSettings& settings, unsigned numb
   for (const std::string& word : words) attributes.push_back(const_cast<char*>(word.c_str()));  // NOLINT: only read
   attributes.push_back(nullptr);
   char* no_properties = nullptr;
-  const char* parent = is_hub ? nullptr : hub(settings.bus()).c_str();
   const std::string name = is_hub ? "usb" + settings.path : settings.path;
   std::string sysfs = in_words(
       umockdev_testbed_add_devicev(testbed_.get(), "usb", name.c_str(), parent, attributes.data(), &no_properties));
@@ -120,7 +119,7 @@ std::string EmulatedBus::add_to_sysfs(const UsbSettings& settings, unsigned numb
   };
   set("MAJOR", "189");
   set("MINOR", std::to_string(minor));
-  set("DEVNAME", node);
+  set("DEVNAME", node_of(settings.bus(), number));
   set("DEVTYPE", "usb_device");
   set("BUSNUM", format("%03u", settings.bus()));
   set("DEVNUM", format("%03u", number));
@@ -140,7 +139,7 @@ EmulatedBus::Plugged::Plugged(EmulatedBus& bus, const UsbSettings& settings) : b
   umockdev_testbed_attach_ioctl(bus.testbed_.get(), node_.c_str(), server_.get(), &error);
   g_clear_error(&error);
   ::chmod((bus.root_ + "/ioctl" + node_).c_str(), 0777);  // the node alone decides who may open it
-  sysfs_ = bus.add_to_sysfs(settings, number_, node_);
+  sysfs_ = bus.add_to_sysfs(settings, number_, bus.hub(settings.bus()).c_str());
   umockdev_testbed_uevent(bus.testbed_.get(), sysfs_.c_str(), "add");
 }
 

@@ -46,7 +46,7 @@ class EmulatedBus {
   [[nodiscard]] const std::string& root() const { return root_; }  ///< UMOCKDEV_DIR
 
  private:
-  std::string add_to_sysfs(const UsbSettings& settings, unsigned number, const std::string& node);
+  std::string add_to_sysfs(const UsbSettings& settings, unsigned number, const char* parent);
   const std::string& hub(unsigned bus);
 
   std::recursive_mutex mutex_;  // of all but root_

@@ -128,48 +128,48 @@ void Usbfs::drop(Client client) {
   if (done_.empty()) node_.set_ready(false);
 }
 
-Usbfs::Sent Usbfs::send(std::uint8_t number, const Bytes& packet) {
+Usbfs::Sent Usbfs::send(std::uint8_t endpoint, const Bytes& packet) {
   const std::lock_guard lock(mutex_);
-  Endpoint& endpoint = endpoints_[number];
-  if (gone_ || endpoint.halted) return Sent::refused;
-  if (!endpoint.waiting.empty()) {
-    fill(std::move(endpoint.waiting.front()), packet);
-    endpoint.waiting.pop_front();
+  Endpoint& end = endpoints_[endpoint];
+  if (gone_ || end.halted) return Sent::refused;
+  if (!end.waiting.empty()) {
+    fill(std::move(end.waiting.front()), packet);
+    end.waiting.pop_front();
     return Sent::taken;
   }
-  endpoint.kept.push_back(packet);
-  if (endpoint.kept.size() <= most_kept) return Sent::kept;
-  endpoint.kept.pop_front();
+  end.kept.push_back(packet);
+  if (end.kept.size() <= most_kept) return Sent::kept;
+  end.kept.pop_front();
   return Sent::replaced;
 }
 
-std::optional<Bytes> Usbfs::receive(std::uint8_t number) {
+std::optional<Bytes> Usbfs::receive(std::uint8_t endpoint) {
   const std::lock_guard lock(mutex_);
-  Endpoint& endpoint = endpoints_[number];
-  if (gone_ || endpoint.waiting.empty()) return std::nullopt;
-  Urb urb = std::move(endpoint.waiting.front());
-  endpoint.waiting.pop_front();
+  Endpoint& end = endpoints_[endpoint];
+  if (gone_ || end.waiting.empty()) return std::nullopt;
+  Urb urb = std::move(end.waiting.front());
+  end.waiting.pop_front();
   urb.actual = urb.data.size();
   Bytes packet = urb.data;
   finish(std::move(urb), 0);
   return packet;
 }
 
-bool Usbfs::fail(std::uint8_t number, int error) {
+bool Usbfs::fail(std::uint8_t endpoint, int error) {
   const std::lock_guard lock(mutex_);
-  auto& waiting = endpoints_[number].waiting;
+  auto& waiting = endpoints_[endpoint].waiting;
   if (gone_ || waiting.empty()) return false;
   finish(std::move(waiting.front()), error);
   waiting.pop_front();
   return true;
 }
 
-void Usbfs::halt(std::uint8_t number, bool halted) {
+void Usbfs::halt(std::uint8_t endpoint, bool halted) {
   const std::lock_guard lock(mutex_);
-  Endpoint& endpoint = endpoints_[number];
-  endpoint.halted = halted;
-  endpoint.kept.clear();
-  if (halted) finish_all(endpoint, EPIPE);
+  Endpoint& end = endpoints_[endpoint];
+  end.halted = halted;
+  end.kept.clear();
+  if (halted) finish_all(end, EPIPE);
 }
 
 bool Usbfs::halted(std::uint8_t endpoint) {
@@ -199,8 +199,9 @@ void Usbfs::finish(Urb urb, int error) {
 void Usbfs::fill(Urb urb, const Bytes& packet) {
   urb.actual = std::min(packet.size(), urb.length);
   urb.data.assign(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(urb.actual));
+  const bool too_long = packet.size() > urb.length;
   const bool too_short = urb.short_not_ok && packet.size() < urb.length;
-  finish(std::move(urb), packet.size() > urb.length ? EOVERFLOW : too_short ? EREMOTEIO : 0);
+  finish(std::move(urb), too_long ? EOVERFLOW : too_short ? EREMOTEIO : 0);
 }
 
 void Usbfs::finish_all(Endpoint& endpoint, int error) {

@@ -212,7 +212,7 @@ void connect(UMockdevIoctlBase* base, const char* signal, F* handler, const Shar
 
 }  // namespace
 
-std::shared_ptr<UMockdevIoctlBase> serve(std::shared_ptr<Usbfs> usbfs) {
+std::shared_ptr<UMockdevIoctlBase> serve(const std::shared_ptr<Usbfs>& usbfs) {
   std::shared_ptr<UMockdevIoctlBase> base(umockdev_ioctl_base_new(),
                                           [](UMockdevIoctlBase* one) { g_object_unref(one); });
   connect(base.get(), "handle-ioctl", on_ioctl, usbfs);

@@ -31,8 +31,9 @@ TEST_CASE("a state frame has its fields where the wire has them") {
     CHECK(frame[27 + i] == frame[39 + i]);
   }
   CHECK(frame[16 + 19] == 0b010);  // the first button pressed, the second not, docked
-  CHECK(crc32(std::span(frame).first(60)) ==
-        (frame[60] | frame[61] << 8U | frame[62] << 16U | static_cast<std::uint32_t>(frame[63]) << 24U));
+  std::uint32_t crc = 0;
+  for (std::size_t i = 64; i-- > 60;) crc = crc << 8U | frame[i];
+  CHECK(crc32(std::span(frame).first(60)) == crc);
 }
 
 TEST_CASE("a command is decoded, and any wrong byte makes it invalid") {
