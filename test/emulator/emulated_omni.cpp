@@ -38,7 +38,6 @@ EmulatedOmni::~EmulatedOmni() {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
   }
-  stop_.notify_all();
   thread_.join();
 }
 

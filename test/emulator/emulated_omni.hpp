@@ -8,7 +8,6 @@
 
 #include <limpid/core/time.hpp>
 
-#include <condition_variable>
 #include <optional>
 #include <string>
 #include <thread>
@@ -104,7 +103,6 @@ class EmulatedOmni {
 
   EmulatedUsbDevice device_;
   mutable std::mutex mutex_;
-  std::condition_variable stop_;
   bool stopping_ = false;
   EmulatedArm arm_;
   OmniBoard board_{};
