@@ -24,7 +24,8 @@ int main(int argc, char** argv) {
     print_table(std::cout, options.scene, runs);
     const PalpationResult* hold = hold_of(runs);
     std::optional<PalpationResult> unasked;  // the windows are judged by it
-    if (hold == nullptr && !options.json.empty()) hold = &unasked.emplace(run(PredictorKind::hold));
+    if (hold == nullptr && !options.json.empty() && !options.scene.live)
+      hold = &unasked.emplace(run(PredictorKind::hold));
     write_outputs(std::cout, options, runs, hold);
     return report_faults(std::cerr, runs) ? 2 : 0;
   } catch (const std::exception& error) {

@@ -49,6 +49,7 @@ Json settings_of(const Scene& scene) {
             {"known", scene.estimation.known},
             {"robot", scene.robot == RobotKind::ideal ? "ideal" : "realistic"},
             {"playback", scene.playback}};
+  if (scene.live) json["device"] = scene.live->device == DeviceKind::usb ? "usb" : "simulated, by the machine's clock";
   if (tissue.kind == TissueKind::smooth_bilinear) {
     json["stiffness"] = {tissue.stiffness, tissue.stiffness2};
     json["depth"] = tissue.depth;
@@ -120,7 +121,28 @@ Json windows(const std::vector<Window>& all) {
   return json;
 }
 
-Json report(const Scene& scene, const std::vector<PalpationRun>& runs, const PalpationResult& reference) {
+Json live(const LiveReport& of) {
+  const LiveDeviceReport& device = of.device;
+  Json json{{"ticks", of.loop.ticks},
+            {"missed", of.loop.missed},
+            {"overruns", of.loop.overruns},
+            {"lateness_ns", ticks(of.loop.lateness)},
+            {"work_ns", ticks(of.loop.work)},
+            {"samples", of.samples},
+            {"ticks_without_force", of.without_force}};
+  if (device.calls.count() == 0) return json;
+  json["usb"] = {{"states_per_second", device.states_per_second},
+                 {"used_in_their_tick", device.used_in_their_tick},
+                 {"lost", device.lost},
+                 {"damaged", device.damaged},
+                 {"commands", device.commands},
+                 {"dropped", device.dropped},
+                 {"calls_ns", ticks(device.calls)},
+                 {"fault", device.fault}};
+  return json;
+}
+
+Json report(const Scene& scene, const std::vector<PalpationRun>& runs, const PalpationResult* reference) {
   Json json{{"settings", settings_of(scene)}};
   if (scene.hand) {
     json["operator"] = {
@@ -128,7 +150,7 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs, const Pal
   }
   json["predictors"] = Json::object();
   const PalpationResult* hold = hold_of(runs);
-  const std::vector<double> of_hold = squared_errors(reference);
+  const std::vector<double> of_hold = reference != nullptr ? squared_errors(*reference) : std::vector<double>{};
   LatencyHistogram all;
   for (const PalpationRun& run : runs) {
     const PalpationResult& result = run.result;
@@ -138,7 +160,9 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs, const Pal
     if (hold != nullptr) entry["change"] = changes(result, *hold);
     if (scene.hand) entry["energy"] = energies(result.energy);
     entry["tick_ns"] = ticks(result.tick);
-    entry["windows"] = windows(windows_of(squared_errors(result), of_hold, in_seconds(scene.tick)));
+    if (reference != nullptr)
+      entry["windows"] = windows(windows_of(squared_errors(result), of_hold, in_seconds(scene.tick)));
+    if (result.live) entry["live"] = live(*result.live);
     entry["status"] = describe(result.status);
     entry["fault"] = has(result.status, Status::fault);
     all.merge(result.tick);
@@ -149,7 +173,7 @@ Json report(const Scene& scene, const std::vector<PalpationRun>& runs, const Pal
 
 }  // namespace
 
-std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs, const PalpationResult& hold) {
+std::string as_json(const Scene& scene, const std::vector<PalpationRun>& runs, const PalpationResult* hold) {
   return report(scene, runs, hold).dump(2) + '\n';
 }
 

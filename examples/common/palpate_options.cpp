@@ -5,6 +5,7 @@
 #include "option_values.hpp"
 #include "output_file.hpp"
 #include "palpate_disturbance_options.hpp"
+#include "palpate_live_options.hpp"
 #include "palpate_predictor_options.hpp"
 #include "palpate_tissue_options.hpp"
 
@@ -22,6 +23,7 @@ struct Typed {
   TypedTissue tissue;
   TypedDisturbances disturbances;
   TypedPredictors predictors;
+  TypedLive live;
   std::string force_file, robot = "ideal", json, csv, plot;
   std::vector<double> raised_cosine, sine, tool{0.1, 0.1, 0};
   std::vector<std::string> person{"force"};
@@ -54,6 +56,7 @@ void add_options(CLI::App& app, Typed& typed) {
   app.add_option("--delay", typed.delay, "from sample to arrival, s; default: the period")->check(within(0, 1e4));
   add_predictor_options(app, typed.predictors);
 
+  add_live_options(app, typed.live);
   app.add_option("--robot", typed.robot, "the simulated Omni")->check(CLI::IsMember({"ideal", "realistic"}));
   app.add_flag("--playback", typed.playback, "the operator's force does not act on the arm");
   app.add_option("--duration", typed.duration, "s; default 20, or the recording's length")->check(within(0, 1e5, true));
@@ -145,7 +148,9 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
     refuse("--duration", "accepts more than the sample period and the delay together");
   }
   scene.disturbances = disturbances_of(typed.disturbances, in_seconds(scene.duration));
-  scene.robot = typed.robot == "ideal" ? RobotKind::ideal : RobotKind::realistic;
+  // of a device on USB too: its torques are limited, its parameters are Table 5.2's
+  const bool realistic = typed.robot == "realistic" || typed.live.device == "usb";
+  scene.robot = realistic ? RobotKind::realistic : RobotKind::ideal;
   scene.hand = hand_of(typed);
   scene.playback = typed.playback;
   return scene;
@@ -164,6 +169,7 @@ PalpateOptions parse_palpate_options(int argc, const char* const* argv) {
     options.predictors = predictors_of(app, typed.predictors);
     refuse_same_outputs(typed);
     options.scene = scene_of(app, typed);
+    options.scene.live = live_of(app, typed.live, options.scene, options.predictors.size());
     refuse_unserved(options.predictors, options.scene);
   } catch (const CLI::ParseError& error) {
     options.exit_code = app.exit(error);

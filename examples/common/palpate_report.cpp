@@ -52,6 +52,25 @@ void print_ticks(std::ostream& out, const std::vector<PalpationRun>& runs) {
   }
 }
 
+void print_live(std::ostream& out, const LiveReport& live) {
+  out << describe(live.loop) << live.samples << " samples of the tissue; ";
+  if (live.without_force > 0) {
+    out << live.without_force << " ticks without its force, since it gave none for too long\n";
+  } else {
+    out << "its force was there all the time\n";
+  }
+  const LiveDeviceReport& device = live.device;
+  if (device.calls.count() == 0) return;
+  out << text("device: %.1f states a second, %.3f %% of them used in their tick; %llu lost, %llu damaged\n",
+              device.states_per_second, 100 * device.used_in_their_tick, static_cast<unsigned long long>(device.lost),
+              static_cast<unsigned long long>(device.damaged))
+      << text("its calls in a tick, ns: p50 %ld, p99 %ld, p99.9 %ld, max %ld\n",
+              static_cast<long>(device.calls.quantile(0.5).count()),
+              static_cast<long>(device.calls.quantile(0.99).count()),
+              static_cast<long>(device.calls.quantile(0.999).count()), static_cast<long>(device.calls.max().count()));
+  if (!device.fault.empty()) out << "device: " << device.fault << "; motors off\n";
+}
+
 // Section 3.5: a change counts where people can feel it.
 void print_verdict(std::ostream& out, const std::vector<PalpationRun>& runs) {
   const PalpationResult* hold = hold_of(runs);
@@ -158,6 +177,9 @@ void print_table(std::ostream& out, const Scene& scene, const std::vector<Palpat
   print_ticks(out, runs);
   print_verdict(out, runs);
   for (const PalpationRun& run : runs) {
+    if (run.result.live) print_live(out, *run.result.live);
+  }
+  for (const PalpationRun& run : runs) {
     if (run.result.status != Status::ok) out << name(run.predictor) << ": " << describe(run.result.status) << '\n';
   }
 }
@@ -176,7 +198,7 @@ bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs) {
 void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs,
                    const PalpationResult* hold) {
   if (!options.json.empty()) {
-    write_file(options.json, as_json(options.scene, runs, *hold));
+    write_file(options.json, as_json(options.scene, runs, hold));
     out << "figures: " << options.json << '\n';
   }
   if (!options.csv.empty()) {

@@ -25,7 +25,7 @@ void print_table(std::ostream& out, const Scene& scene, const std::vector<Palpat
 [[nodiscard]] bool report_faults(std::ostream& out, const std::vector<PalpationRun>& runs);
 
 /// Writes what the options ask for and says where.
-/// @param hold  whose errors the windows of the JSON are judged by; read for that only
+/// @param hold  whose errors the windows of the JSON are judged by; read for that only, null in a live run
 /// @throws std::runtime_error  where a file cannot be written
 void write_outputs(std::ostream& out, const PalpateOptions& options, const std::vector<PalpationRun>& runs,
                    const PalpationResult* hold);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "palpation_live.hpp"
 #include "palpation_loops.hpp"
 
 #include <stdexcept>
@@ -6,7 +7,24 @@
 
 namespace limpid::examples {
 
-PalpationResult palpate(const Scene& scene, PredictorKind predictor, const ProgressCallback& progress) {
+namespace {
+
+void check_live(const Scene& scene) {
+  if (scene.hand) throw std::invalid_argument("Scene: hand: expected none in a live run, which has one or plays it");
+  if (scene.spring_at_base) throw std::invalid_argument("Scene: spring_at_base: expected none in a live run");
+  if (scene.disturbances.sensing.any()) {
+    throw std::invalid_argument("Scene: disturbances of samples: expected none in a live run");
+  }
+}
+
+}  // namespace
+
+PalpationResult palpate(const Scene& asked, PredictorKind predictor, const ProgressCallback& progress) {
+  Scene scene = asked;
+  if (scene.live) {
+    check_live(scene);
+    prepare_live(scene);
+  }
   if (scene.hand && scene.playback) {
     throw std::invalid_argument("Scene: hand: expected none with playback, in which nothing holds the arm");
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Apart from the loops, which cost a compiler enough without the plant, the arm and the hand.
 #include "palpation_run.hpp"
+
+#include "palpation_live.hpp"
 #include "palpation_operator.hpp"
 
 namespace limpid::examples {
@@ -15,6 +17,7 @@ Status beyond_waiting(Status status) {
 }  // namespace
 
 PalpationResult run(const Scene& scene, const LoopStep& step, const ProgressCallback& progress) {
+  if (scene.live) return run_live(scene, step, progress);
   PalpationResult result;
   const Plant plant = make_plant(scene);
   const Eigen::Vector3d wall = wall_of(scene);

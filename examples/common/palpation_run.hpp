@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <utility>
 
 namespace limpid::examples {
@@ -37,6 +38,25 @@ template <int Axes>
   return {tool.x.head<Axes>(), tool.v.head<Axes>(), tool.a.head<Axes>(), tool.force.head<Axes>()};
 }
 
+/// The controller; where a tissue that runs elsewhere has fallen silent, only what holds the arm against gravity.
+struct FadingTrackingBlock : palpation::TrackingBlock<SlotineLiAdaptive<Omni<>>, Omni<>> {
+  using Block = palpation::TrackingBlock<SlotineLiAdaptive<Omni<>>, Omni<>>;
+
+  std::shared_ptr<const RemoteTissue> remote;
+
+  explicit FadingTrackingBlock(const Scene& scene)
+      : Block{SlotineLiAdaptive<Omni<>>(controller_settings(scene))}, remote{scene.remote} {}
+
+  Reported<Eigen::Vector3d> operator()(Time now, const DeviceState<>& measured, const InverseMotion<3>& desired,
+                                       const Eigen::Vector3d& F_h, const SafeTorque<3>& applied) noexcept {
+    auto wanted = Block::operator()(now, measured, desired, F_h, applied);
+    if (!remote || remote->factor >= 1) return wanted;
+    const Eigen::Vector3d weight = Omni<>{}.at(measured.q).tau_g(component.theta_hat());
+    wanted.value = weight + remote->factor * (wanted.value - weight);
+    return wanted;
+  }
+};
+
 /// A loop of the scene's blocks around the blocks that predict.
 template <int Axes, typename... PredictionBlocks>
 [[nodiscard]] auto compose(const Scene& scene, PredictionBlocks... prediction) {
@@ -45,8 +65,7 @@ template <int Axes, typename... PredictionBlocks>
   return make_loop<wants<AllowedTorque<Arm>, PredictedMotion<Axes>>,
                    inputs<OperatorForce<>, ForceOnArm<>, TrueTool<Axes>, MeasuredState<Arm>>>(
       SensingBlock<Axes>(scene), std::move(prediction)...,
-      KinematicsBlock<OmniKinematics<>, Arm, Axes>{OmniKinematics<>(Arm{}), wall_of(scene)},
-      TrackingBlock<SlotineLiAdaptive<Arm>, Arm>{SlotineLiAdaptive<Arm>(controller_settings(scene))},
+      KinematicsBlock<OmniKinematics<>, Arm, Axes>{OmniKinematics<>(Arm{}), wall_of(scene)}, FadingTrackingBlock(scene),
       SafetyBlock<Arm>{make_limiter(scene)});
 }
 

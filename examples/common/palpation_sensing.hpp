@@ -9,6 +9,7 @@
 #include <limpid/signal/delayed_sampled.hpp>
 #include <limpid/signal/sample.hpp>
 
+#include <memory>
 #include <optional>
 
 namespace limpid::examples {
@@ -30,7 +31,8 @@ class ClockedSensor {
   Time due_{};
 };
 
-/// The slow environment, as if it ran elsewhere: palpation::SamplingBlock, or with a disturbed sensor.
+/// The slow environment: that of a live run; or as if it ran elsewhere, palpation::SamplingBlock, or with a disturbed
+/// sensor.
 template <int Axes>
 struct SensingBlock {
   using reads = signals<palpation::TrueTool<Axes>>;
@@ -39,13 +41,17 @@ struct SensingBlock {
   DelayedSampled<ToolState<Axes>> component;
   Duration delay;
   std::optional<ClockedSensor> sensor;
+  std::shared_ptr<const RemoteTissue> remote;
 
   explicit SensingBlock(const Scene& scene)
-      : component({.period = scene.period, .delay = scene.delay}), delay{scene.delay} {
+      : component({.period = scene.period, .delay = scene.delay}), delay{scene.delay}, remote{scene.remote} {
     if (scene.disturbances.sensing.any()) sensor.emplace(scene);
   }
 
   const Held<ToolState<Axes>>& operator()(Time now, const ToolState<Axes>& tool) noexcept {
+    if constexpr (Axes == 1) {
+      if (remote) return remote->seen;
+    }
     if (!sensor) return component.update(now, tool);
     if (const auto sensed = sensor->sample(now, {tool.x[0], tool.v[0], tool.force[0]})) {
       Sample<ToolState<Axes>> sample{tool, now, now + delay};

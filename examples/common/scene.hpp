@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "live_run.hpp"
 #include "press_force.hpp"
 #include "sensing.hpp"
 #include "tool_in_tissue.hpp"
@@ -10,12 +11,14 @@
 #include <limpid/environment/tool.hpp>
 #include <limpid/evaluation/error_norms.hpp>
 #include <limpid/evaluation/latency_histogram.hpp>
+#include <limpid/signal/sample.hpp>
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +83,14 @@ struct HandModel {
   double stiffness = 0;  ///< K of the grip, N/m
 };
 
+/// What a loop sees of a tissue that runs elsewhere.
+struct RemoteTissue {
+  Held<ToolState<1>> seen{};
+  double factor = 0;  ///< of what makes the tissue felt: less than 1 where it has given no sample for too long
+};
+
+class LiveDevice;
+
 /// One palpation: a recorded hand presses a simulated Omni against a slow tissue.
 struct Scene {
   Tissue tissue;
@@ -99,6 +110,9 @@ struct Scene {
   /// Section 6.1.4: the tool's spring pulls toward the origin of the base frame, so that y and z move too; they are
   /// sampled and held without prediction, and exact with it.
   bool spring_at_base = false;
+  std::optional<LiveSettings> live;      ///< none: as fast as it can, on a simulated device and tissue
+  std::shared_ptr<RemoteTissue> remote;  ///< of a live run, made by it
+  std::shared_ptr<LiveDevice> device;    ///< likewise
 };
 
 /// Signals of one tick, for curves; N, m, s.
@@ -117,6 +131,7 @@ struct PalpationResult {
   HandEnergy<> energy;         ///< of the scene's hand at the end, J
   Status status = Status::ok;  ///< joined over the run, without what the first samples' absence explains
   std::vector<TracePoint> trace;
+  std::optional<LiveReport> live;
 };
 
 /// Called now and then with the fraction done.

@@ -22,6 +22,9 @@
 #include <thread>
 #include <vector>
 
+#include <pthread.h>
+#include <sched.h>
+
 namespace limpid {
 
 struct UsbLinkSettings {
@@ -31,7 +34,8 @@ struct UsbLinkSettings {
   Duration host_watchdog = std::chrono::milliseconds(20);    ///< between commands of the loop, 2 ms to 1 s
   Duration stale_after = std::chrono::milliseconds(10);      ///< without a new state, 2 ms to 1 s
   Duration poll = std::chrono::microseconds(250);            ///< how often a new command is looked for, 50 us to 1 ms
-  Duration search_every = std::chrono::milliseconds(100);    ///< for a device that went away, 10 ms to 10 s
+  int priority = 0;  ///< SCHED_FIFO of the thread that serves libusb, 1 to 99, where permitted; 0: as its maker
+  Duration search_every = std::chrono::milliseconds(100);  ///< for a device that went away, 10 ms to 10 s
 };
 
 /// What the loop reads of a device.
@@ -101,6 +105,8 @@ class UsbLink {
 
   [[nodiscard]] UsbFault fault() const noexcept { return fault_.load(std::memory_order_acquire); }
   [[nodiscard]] bool connected() const noexcept { return connected_.load(std::memory_order_acquire); }
+  /// Whether its thread was given the priority that was asked for; false before it has begun.
+  [[nodiscard]] bool realtime() const noexcept { return realtime_.load(std::memory_order_acquire); }
   [[nodiscard]] const UsbCounters& counters() const noexcept { return counters_; }
 
  private:
@@ -124,6 +130,7 @@ class UsbLink {
     within(settings.host_watchdog, 2ms, 1s, "host_watchdog", "from 2 ms to 1 s");
     within(settings.stale_after, 2ms, 1s, "stale_after", "from 2 ms to 1 s");
     within(settings.poll, 50us, 1ms, "poll", "from 50 us to 1 ms");
+    expect(settings.priority >= 0 && settings.priority <= 99, "UsbLink: priority", "from 0 to 99", settings.priority);
     within(settings.search_every, 10ms, 10s, "search_every", "from 10 ms to 10 s");
     return settings;
   }
@@ -142,6 +149,10 @@ class UsbLink {
   }
 
   void serve(const std::stop_token& stop) noexcept {
+    if (settings_.priority > 0) {
+      const sched_param wanted{.sched_priority = settings_.priority};
+      realtime_.store(::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wanted) == 0, std::memory_order_release);
+    }
     const auto poll = std::chrono::duration_cast<std::chrono::microseconds>(settings_.poll);
     while (!stop.stop_requested()) {
       if (!stream_) {
@@ -265,7 +276,7 @@ class UsbLink {
   LatestValue<Received> states_;
   LatestValue<Order> orders_;
   std::atomic<UsbFault> fault_{UsbFault::none};
-  std::atomic<bool> connected_{false};
+  std::atomic<bool> connected_{false}, realtime_{false};
   std::uint32_t arming_ = 0;  // the loop's
 
   // The thread's.

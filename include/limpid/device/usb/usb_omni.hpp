@@ -98,6 +98,7 @@ class UsbOmni {
   [[nodiscard]] bool docked() const noexcept { return newest_.docked; }
   [[nodiscard]] const OmniBridge::State& state() const noexcept { return newest_; }  ///< as it came
   [[nodiscard]] std::uint64_t states() const noexcept { return taken_; }             ///< number of the newest
+  [[nodiscard]] bool realtime() const noexcept { return link_.realtime(); }          ///< see UsbLink
   [[nodiscard]] const UsbCounters& counters() const noexcept { return link_.counters(); }
 
  private:

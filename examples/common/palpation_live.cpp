@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "palpation_live.hpp"
+
+#include "live_device.hpp"
+#include "live_tissue.hpp"
+#include "text_panel.hpp"
+#include "words.hpp"
+
+#include <limpid/loop/realtime/periodic_loop.hpp>
+#include <limpid/loop/realtime/stop_on_signal.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <unistd.h>
+
+namespace limpid::examples {
+
+namespace {
+
+PeriodicSettings settings_of(const Scene& scene) {
+  return {.period = scene.tick, .thread = {.priority = scene.live->priority, .lock_memory = scene.live->lock_memory}};
+}
+
+// What a person at the terminal sees of a tick.
+struct Shown {
+  double time = 0, force = 0, predicted = 0, tip = 0, error = 0;  // s, N, m
+  std::uint64_t missed = 0;                                       // ticks
+  bool felt = true;                                               // the tissue is there
+};
+
+std::vector<std::string> lines_of(const Shown& shown) {
+  return {words("time %8.2f s    force %7.3f N    deadlines missed %llu", shown.time, shown.force,
+                static_cast<unsigned long long>(shown.missed)),
+          words("tool %8.3f mm   tip %8.3f mm   total error %.3g", 1e3 * shown.predicted, 1e3 * shown.tip, shown.error),
+          shown.felt ? "" : "the tissue gives no samples: its force is away"};
+}
+
+// One tick after another; no exception leaves it.
+class LiveTicks {
+ public:
+  LiveTicks(const Scene& scene, const LoopStep& step, LiveDevice& device, std::stop_source& stop)
+      : scene_{scene},
+        step_{step},
+        device_{device},
+        stop_{stop},
+        plant_{make_plant(scene)},
+        tissue_{scene},
+        wall_{wall_of(scene)} {
+    result_.trace.reserve(static_cast<std::size_t>(scene.duration / scene.tick + 2));
+    if (::isatty(STDERR_FILENO) == 1) panel_.emplace(lines_of, TextPanelSettings{.descriptor = STDERR_FILENO});
+  }
+
+  Status tick(const TickTime& at) noexcept {
+    if (!begin_ && !device_.settle(at.now)) return Status::ok;
+    if (!begin_) begin_ = at.now;
+    const Time now = at.now - *begin_;
+    if (now > scene_.duration) {
+      stop_.request_stop();
+      return Status::ok;
+    }
+    const double F_h = scene_.force.at(now);
+    const Eigen::Vector3d hand{F_h, 0, 0}, on_arm{scene_.playback ? 0 : F_h, 0, 0};
+    const ToolState<3> tool = plant_(now, F_h);
+    tissue_.exchange(now, F_h);
+    const DeviceState<> measured = device_.read(at.now, hand);
+    const LoopTick made = step_(now, hand, on_arm, tool, measured);
+    const Status status = made.status | device_.write(made.torque);
+    result_.tick.add(made.work);
+    note(now, F_h, tool, made);
+    if (panel_) show(at.missed);
+    return status;
+  }
+
+  PalpationResult result(const RealtimeReport& loop) {
+    LiveReport& live = result_.live.emplace();
+    live.loop = loop;
+    live.samples = tissue_.samples();
+    live.without_force = tissue_.faded();
+    live.device = device_.report();
+    panel_.reset();
+    constexpr auto waiting = static_cast<std::uint32_t>(Status::no_sample);
+    result_.status = static_cast<Status>(static_cast<std::uint32_t>(loop.status) & ~waiting);
+    return std::move(result_);
+  }
+
+ private:
+  void show(std::uint64_t missed) noexcept {
+    missed_ += missed;
+    const TracePoint& last = result_.trace.back();
+    panel_->show({last.time, last.force, last.predicted, last.tip, last.total_error, missed_, tissue_.factor() > 0});
+  }
+
+  void note(Time now, double F_h, const ToolState<3>& tool, const LoopTick& made) {
+    const JointState<3> joints = device_.joints();
+    const auto pose = Omni<>{}.at(joints.q);
+    const Eigen::Array3d tip = (pose.position() - wall_).array(),
+                         tip_velocity = (pose.jacobian() * joints.qdot).array();
+    const Eigen::Array3d ep = made.motion.x - tool.x, ev = made.motion.v - tool.v;
+    const Eigen::Array3d et = tip - tool.x, etv = tip_velocity - tool.v;
+    (void)result_.prediction.add(now, ep, ev);
+    (void)result_.total.add(now, et, etv);
+    if (result_.trace.size() == result_.trace.capacity()) return;
+    result_.trace.push_back({in_seconds(now), F_h, F_h, tool.x[0], made.motion.x[0], tip[0],
+                             std::sqrt((ep * ep + ev * ev).sum()), std::sqrt((et * et + etv * etv).sum()),
+                             made.parameters, made.torque.value()});
+  }
+
+  const Scene& scene_;
+  const LoopStep& step_;
+  LiveDevice& device_;
+  std::stop_source& stop_;
+  Plant plant_;
+  LiveTissue tissue_;
+  Eigen::Vector3d wall_;
+  std::optional<Time> begin_;
+  std::uint64_t missed_ = 0;
+  PalpationResult result_;
+  std::optional<TextPanel<Shown>> panel_;
+};
+
+}  // namespace
+
+void prepare_live(Scene& scene) {
+  std::stop_source stop;
+  const StopOnSignal on_signal(stop);
+  scene.remote = std::make_shared<RemoteTissue>();
+  scene.device = make_live_device(scene);
+  scene.device->prepare(stop.get_token());
+  if (stop.stop_requested()) throw std::runtime_error("interrupted");
+  scene.start = scene.device->joints().q;
+}
+
+PalpationResult run_live(const Scene& scene, const LoopStep& step, const ProgressCallback&) {
+  std::stop_source stop;
+  const StopOnSignal on_signal(stop);
+  LiveTicks ticks(scene, step, *scene.device, stop);
+  PeriodicLoop loop(settings_of(scene));
+  const RealtimeReport& report =
+      loop.run(stop.get_token(), [&](const TickTime& at) noexcept { return ticks.tick(at); });
+  return ticks.result(report);
+}
+
+}  // namespace limpid::examples
