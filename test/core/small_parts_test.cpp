@@ -38,11 +38,11 @@ TEST_CASE("a status names its bits") {
   CHECK(describe(Status::ok) == "ok");
   CHECK(describe(Status::singular | Status::not_finite) == "not_finite, singular");
   Status all = Status::ok;
-  for (int bit = 0; bit < 15; ++bit) all |= static_cast<Status>(1U << bit);
+  for (int bit = 0; bit < 18; ++bit) all |= static_cast<Status>(1U << bit);
   CHECK(describe(all) ==
         "not_finite, clock_backwards, no_sample, out_of_order, out_of_history, overflow, singular, unreachable, "
         "at_bound, "
-        "limited, joint_limit, workspace_limit, fault, disconnected, stale");
+        "limited, joint_limit, workspace_limit, fault, disconnected, stale, coarse, lost, overload");
 }
 
 TEST_CASE_TEMPLATE("a difference of times becomes seconds, and keeps a millisecond after an hour", Scalar, float,

@@ -29,6 +29,7 @@ enum class Status : std::uint32_t {
   stale = 1U << 14,            ///< the newest data are older than allowed
   coarse = 1U << 15,           ///< a step too long for what it follows: taken damped, of order 1
   lost = 1U << 16,             ///< a prediction far from what was measured: it started again from the newest sample
+  overload = 1U << 17,         ///< a sensor loaded beyond its range: there was more than its value says
 };
 
 [[nodiscard]] constexpr Status operator|(Status a, Status b) noexcept {
@@ -51,7 +52,7 @@ constexpr Status& operator|=(Status& a, Status b) noexcept { return a = a | b; }
 
 /// "not_finite, singular", or "ok"; for people, not for the loop (allocates).
 [[nodiscard]] inline std::string describe(Status status) {
-  constexpr std::array<std::pair<Status, std::string_view>, 17> names{{
+  constexpr std::array<std::pair<Status, std::string_view>, 18> names{{
       {Status::not_finite, "not_finite"},
       {Status::clock_backwards, "clock_backwards"},
       {Status::no_sample, "no_sample"},
@@ -69,6 +70,7 @@ constexpr Status& operator|=(Status& a, Status b) noexcept { return a = a | b; }
       {Status::stale, "stale"},
       {Status::coarse, "coarse"},
       {Status::lost, "lost"},
+      {Status::overload, "overload"},
   }};
   std::string text;
   for (const auto& [bit, name] : names) {
