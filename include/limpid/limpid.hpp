@@ -241,6 +241,8 @@
 #include <limpid/device/arm_hardware.hpp>
 #include <limpid/device/force_sensor.hpp>
 #include <limpid/device/haptic_device.hpp>
+#include <limpid/device/opto_force_parser.hpp>
+#include <limpid/device/opto_force_protocol.hpp>
 #include <limpid/device/recording.hpp>
 #include <limpid/device/simulated_arm.hpp>
 #include <limpid/device/simulated_five_bar.hpp>
