@@ -239,6 +239,7 @@
 #include <limpid/control/virtual_coupling.hpp>
 
 #include <limpid/device/arm_hardware.hpp>
+#include <limpid/device/force_calibration.hpp>
 #include <limpid/device/force_sensor.hpp>
 #include <limpid/device/haptic_device.hpp>
 #include <limpid/device/opto_force_parser.hpp>
