@@ -242,6 +242,7 @@
 #include <limpid/device/force_calibration.hpp>
 #include <limpid/device/force_calibration_fit.hpp>
 #include <limpid/device/force_sensor.hpp>
+#include <limpid/device/force_zero.hpp>
 #include <limpid/device/haptic_device.hpp>
 #include <limpid/device/opto_force_parser.hpp>
 #include <limpid/device/opto_force_protocol.hpp>
