@@ -250,6 +250,7 @@
 #include <limpid/device/simulated_arm.hpp>
 #include <limpid/device/simulated_five_bar.hpp>
 #include <limpid/device/simulated_omni.hpp>
+#include <limpid/device/stylus_frame.hpp>
 
 #include <limpid/loop/block.hpp>
 #include <limpid/loop/call.hpp>
