@@ -249,6 +249,7 @@
 #include <limpid/device/recording.hpp>
 #include <limpid/device/simulated_arm.hpp>
 #include <limpid/device/simulated_five_bar.hpp>
+#include <limpid/device/simulated_force_sensor.hpp>
 #include <limpid/device/simulated_omni.hpp>
 #include <limpid/device/stylus_frame.hpp>
 
