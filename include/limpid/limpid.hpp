@@ -246,6 +246,7 @@
 #include <limpid/device/haptic_device.hpp>
 #include <limpid/device/opto_force_parser.hpp>
 #include <limpid/device/opto_force_protocol.hpp>
+#include <limpid/device/recorded_force_sensor.hpp>
 #include <limpid/device/recording.hpp>
 #include <limpid/device/simulated_arm.hpp>
 #include <limpid/device/simulated_five_bar.hpp>
