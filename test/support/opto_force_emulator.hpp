@@ -2,7 +2,7 @@
 #pragma once
 
 #include <support/opto_force_bytes.hpp>
-#include <support/pseudo_terminal.hpp>
+#include <support/serial_line.hpp>
 
 #include <algorithm>
 #include <array>
@@ -110,7 +110,7 @@ class OptoForceEmulator {
   }
 
   std::mutex mutex_;
-  PseudoTerminal terminal_;
+  SerialLine terminal_;
   std::array<int, 3> counts_{};
   unsigned status_ = 0, number_ = 65000;
   bool stalled_ = false;
