@@ -10,6 +10,7 @@
 #include <limpid/robot/joint_state.hpp>
 
 #include <memory>
+#include <optional>
 #include <stop_token>
 
 namespace limpid::examples {
@@ -24,6 +25,9 @@ class LiveDevice {
 
   /// Waits until its joints are known and its motors may be on, and says what for; ends where a stop is requested.
   virtual void prepare(const std::stop_token& stop) = 0;
+  /// An instant from which on, a tick apart, the loop best runs: between the device's states, where it has a clock of
+  /// its own. Known once prepared.
+  [[nodiscard]] virtual std::optional<Time> grid(Duration tick) const = 0;
   /// By the loop, before its first tick, until it returns true: no torque, and what came up while the loop was made is
   /// cleared.
   virtual bool settle(Time now) noexcept = 0;

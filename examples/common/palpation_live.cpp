@@ -26,7 +26,9 @@ namespace limpid::examples {
 namespace {
 
 PeriodicSettings settings_of(const Scene& scene) {
-  return {.period = scene.tick, .thread = {.priority = scene.live->priority, .lock_memory = scene.live->lock_memory}};
+  return {.period = scene.tick,
+          .origin = scene.device->grid(scene.tick),
+          .thread = {.priority = scene.live->priority, .lock_memory = scene.live->lock_memory}};
 }
 
 // What a person at the terminal sees of a tick.

@@ -12,6 +12,7 @@ class SimulatedLive : public LiveDevice {
   explicit SimulatedLive(const Scene& scene) : device_(make_device(scene)) {}
 
   void prepare(const std::stop_token&) override {}
+  [[nodiscard]] std::optional<Time> grid(Duration) const override { return {}; }
   bool settle(Time) noexcept override { return true; }
   DeviceState<> read(Time now, const Eigen::Vector3d& hand) noexcept override {
     const Status status = device_.advance(now, hand);

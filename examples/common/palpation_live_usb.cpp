@@ -7,8 +7,12 @@
 #include <limpid/device/arm_hardware.hpp>
 #include <limpid/device/usb/usb_omni.hpp>
 
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <iostream>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -37,6 +41,18 @@ class UsbLive : public LiveDevice {
     wait(stop, "put the stylus into its dock", [&] { return omni_.calibrated(); });
     wait(stop, "draw the stylus out, hold it where the wall is to be", [&] { return !omni_.docked(); });
     well_since_ = steady_now();
+  }
+
+  // Half a tick beside the mean, on the circle of a tick, of when the last states came.
+  [[nodiscard]] std::optional<Time> grid(Duration tick) const override {
+    const double turn = 2 * std::numbers::pi / in_seconds(tick);
+    double x = 0, y = 0;
+    for (const Time stamp : stamps_) {
+      const double angle = turn * in_seconds(stamp % tick);
+      x += std::cos(angle);
+      y += std::sin(angle);
+    }
+    return from_seconds(std::atan2(y, x) / turn) + tick / 2;
   }
 
   // Once it has been without a fault for as long as a link needs to find one.
@@ -92,7 +108,9 @@ class UsbLive : public LiveDevice {
   void wait(const std::stop_token& stop, const std::string& what_for, Condition&& condition) {
     bool said = false;
     while (!stop.stop_requested()) {
-      joints_ = omni_.read(steady_now()).joint_state();
+      const DeviceState<> seen = omni_.read(steady_now());
+      joints_ = seen.joint_state();
+      stamps_[next_stamp_++ % stamps_.size()] = seen.stamp;
       (void)omni_.write({});
       if (condition()) return;
       if (!said && omni_.states() > 0) std::cerr << "waiting: " << what_for << '\n';
@@ -106,6 +124,8 @@ class UsbLive : public LiveDevice {
   UsbOmni omni_;
   LiveDeviceReport report_{};
   JointState<3> joints_{};
+  std::array<Time, 64> stamps_{};  // of the last states, while it waited
+  std::size_t next_stamp_ = 0;
   Duration call_{};
   Time well_since_{}, began_{}, ended_{};
   std::uint64_t last_count_ = 0, used_ = 0, came_ = 0;

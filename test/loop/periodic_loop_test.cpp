@@ -92,6 +92,18 @@ TEST_CASE("ticks come at the instants of the grid, whatever they take within a p
   CHECK(seen.report.end == LoopEnd::duration);
 }
 
+TEST_CASE("a grid may go with an instant of another clock, before the run or after its begin") {
+  for (const Time origin : {Time(1000s), Time(0s), Time(3000s)}) {
+    CAPTURE(origin.count());
+    CHECK(run({.origin = origin}, {}).begin(0) == 0s);
+    const Run seen = run({.origin = origin + 300us}, {});
+    CHECK(seen.begin(0) == 300us);
+    CHECK(seen.begin(9) == 9300us);
+    CHECK(seen.ticks.size() == 10);
+    CHECK(seen.report.missed == 0);
+  }
+}
+
 TEST_CASE("dt is measured, and late wake-ups do not add up") {
   const Run seen = run({}, {}, {.late = {0us, 200us, 50us}});
   CHECK(seen.begin(1) == 1200us);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <type_traits>
@@ -46,10 +47,11 @@ struct PeriodicSettings {
   Overrun overrun = Overrun::skip;      ///< what happens to ticks that are late by a period or more
   int most_behind = 4;                  ///< of catch_up: periods that a tick may be late, >= 0
   Duration duration = Duration::max();  ///< to run for, > 0; ticks are due before its end
+  std::optional<Time> origin{};         ///< an instant of the grid, by the clock: to go with another; none: the begin
   RealtimeThread::Settings thread{};    ///< for as long as the loop runs
 };
 
-/// Calls a function at the instants of a grid of CLOCK_MONOTONIC that begins with the run:
+/// Calls a function at the instants of a grid of CLOCK_MONOTONIC that begins with the run, or goes with `origin`:
 /// ```cpp
 /// PeriodicLoop loop({.period = 1ms, .thread = {.priority = 80, .cpu = 1, .lock_memory = true}});
 /// loop.run(stop, [&](const TickTime& at) noexcept { ... });  // on this thread, until a stop is requested
@@ -106,7 +108,7 @@ class PeriodicLoop {
   template <typename Tick>
   LoopEnd ticked(const std::stop_token& stop, Tick& tick) noexcept {
     const Duration period = settings_.period;
-    Time due = clock_.now();
+    Time due = first_instant(clock_.now());
     const Time end = later(due, settings_.duration);
     TickTime at{};
     while (due < end) {
@@ -131,6 +133,12 @@ class PeriodicLoop {
       if (settings_.overrun == Overrun::skip) miss(instants(due, done), due, at);
     }
     return LoopEnd::duration;
+  }
+
+  [[nodiscard]] Time first_instant(Time now) const noexcept {
+    if (!settings_.origin) return now;
+    const Duration past = elapsed(now, *settings_.origin) % settings_.period;  // below 0 where the origin is to come
+    return past > Duration::zero() ? later(now, settings_.period - past) : now - past;
   }
 
   bool slept_until(Time due, const std::stop_token& stop) noexcept {
