@@ -65,6 +65,9 @@ Json settings_of(const Scene& scene) {
     json["stiffness"] = tissue.layers;
     json["boundaries"] = tissue.boundaries;
   }
+  if (scene.force_sensor) {
+    json["force_sensor"] = {{"cross_talk", scene.force_sensor->cross_talk}, {"noise", scene.force_sensor->noise}};
+  }
   if (tissue.wall) json["wall"] = *tissue.wall;
   if (const Json disturbances = disturbances_of(scene.disturbances); !disturbances.empty()) {
     json["disturbances"] = disturbances;

@@ -27,6 +27,8 @@ struct Typed {
   std::string force_file, robot = "ideal", json, csv, plot;
   std::vector<double> raised_cosine, sine, tool{0.1, 0.1, 0};
   std::vector<std::string> person{"force"};
+  std::string force_sensor = "none";
+  double cross_talk = 0, sensor_noise = 0.01;
   double force_scale = 1, sample_period = 0.1, delay = 0, duration = 20, rate = 1000;
   bool playback = false;
 };
@@ -48,6 +50,12 @@ void add_options(CLI::App& app, Typed& typed) {
                  "force: as given, whatever the tip does; or hand M,B,K: it is the intention of a hand, kg, N s/m, N/m")
       ->expected(1, 2)
       ->type_name("force|hand M,B,K");
+
+  app.add_option("--force-sensor", typed.force_sensor, "none: the operator's force is known; simulated: by a sensor")
+      ->check(CLI::IsMember({"none", "simulated"}));
+  app.add_option("--sensor-cross-talk", typed.cross_talk, "of each axis on each other, a part; needs the sensor")
+      ->check(within(0, 1));
+  app.add_option("--sensor-noise", typed.sensor_noise, "standard deviation, N; needs the sensor")->check(within(0, 10));
 
   add_tissue_options(app, typed.tissue);
   add_disturbance_options(app, typed.disturbances);
@@ -111,6 +119,14 @@ PressForce force_of(const CLI::App& app, const Typed& typed) {
   return force;
 }
 
+std::optional<ForceSensorModel> sensor_of(const CLI::App& app, const Typed& typed) {
+  if (typed.force_sensor == "simulated") return ForceSensorModel{typed.cross_talk, typed.sensor_noise};
+  for (const char* option : {"--sensor-cross-talk", "--sensor-noise"}) {
+    if (app.count(option) > 0) refuse(option, "goes with --force-sensor simulated");
+  }
+  return {};
+}
+
 // Where nothing pulls: a tissue that is touched at a wall could not keep hold of a tool that is pulled at.
 PressForce only_pressing(PressForce force) {
   force.at = [pulled = std::move(force.at)](Time t) { return std::max(pulled(t), 0.0); };
@@ -152,6 +168,7 @@ Scene scene_of(const CLI::App& app, const Typed& typed) {
   const bool realistic = typed.robot == "realistic" || typed.live.device == "usb";
   scene.robot = realistic ? RobotKind::realistic : RobotKind::ideal;
   scene.hand = hand_of(typed);
+  scene.force_sensor = sensor_of(app, typed);
   scene.playback = typed.playback;
   return scene;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "palpation_live.hpp"
 
+#include "hand_sensor.hpp"
 #include "live_device.hpp"
 #include "live_tissue.hpp"
 #include "text_panel.hpp"
@@ -55,7 +56,8 @@ class LiveTicks {
         stop_{stop},
         plant_{make_plant(scene)},
         tissue_{scene},
-        wall_{wall_of(scene)} {
+        wall_{wall_of(scene)},
+        sensor_(scene) {
     result_.trace.reserve(static_cast<std::size_t>(scene.duration / scene.tick + 2));
     if (::isatty(STDERR_FILENO) == 1) panel_.emplace(lines_of, TextPanelSettings{.descriptor = STDERR_FILENO});
   }
@@ -69,12 +71,14 @@ class LiveTicks {
       return Status::ok;
     }
     const double F_h = scene_.force.at(now);
-    const Eigen::Vector3d hand{F_h, 0, 0}, on_arm{scene_.playback ? 0 : F_h, 0, 0};
-    const ToolState<3> tool = plant_(now, F_h);
-    tissue_.exchange(now, F_h);
+    const Eigen::Vector3d hand{F_h, 0, 0};
+    const auto [heard, sensed] = sensor_.hear(now, hand);
+    const Eigen::Vector3d on_arm = scene_.playback ? Eigen::Vector3d(0, 0, 0) : heard;
+    const ToolState<3> tool = plant_(now, heard[0]);
+    tissue_.exchange(now, heard[0]);
     const DeviceState<> measured = device_.read(at.now, hand);
-    const LoopTick made = step_(now, hand, on_arm, tool, measured);
-    const Status status = made.status | device_.write(made.torque);
+    const LoopTick made = step_(now, heard, on_arm, tool, measured);
+    const Status status = sensed | made.status | device_.write(made.torque);
     result_.tick.add(made.work);
     note(now, F_h, tool, made);
     if (panel_) show(at.missed);
@@ -122,6 +126,7 @@ class LiveTicks {
   Plant plant_;
   LiveTissue tissue_;
   Eigen::Vector3d wall_;
+  HandSensor sensor_;
   std::optional<Time> begin_;
   std::uint64_t missed_ = 0;
   PalpationResult result_;

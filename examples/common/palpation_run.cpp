@@ -2,6 +2,7 @@
 // Apart from the loops, which cost a compiler enough without the plant, the arm and the hand.
 #include "palpation_run.hpp"
 
+#include "hand_sensor.hpp"
 #include "palpation_live.hpp"
 #include "palpation_operator.hpp"
 
@@ -23,18 +24,21 @@ PalpationResult run(const Scene& scene, const LoopStep& step, const ProgressCall
   const Eigen::Vector3d wall = wall_of(scene);
   const Omni<> arm;
   SimulatedOmni<> device = make_device(scene);
+  HandSensor sensor(scene);
   PalpationOperator person(scene, wall[0]);
   const Duration::rep ticks = scene.duration / scene.tick;
   result.trace.reserve(static_cast<std::size_t>(ticks + 1));
   for (Duration::rep k = 0; k <= ticks; ++k) {
     const Time now = k * scene.tick;
     const double F_h = person.press(now, device);
-    const Eigen::Vector3d hand{F_h, 0, 0}, on_arm{scene.playback ? 0 : F_h, 0, 0};
-    const ToolState<3> tool = plant(now, F_h);
-    result.status |= person.status() | device.advance(now, hand);
+    const Eigen::Vector3d hand{F_h, 0, 0};
+    const auto [heard, sensed] = sensor.hear(now, hand);
+    const Eigen::Vector3d on_arm = scene.playback ? Eigen::Vector3d(0, 0, 0) : heard;
+    const ToolState<3> tool = plant(now, heard[0]);
+    result.status |= beyond_waiting(sensed) | person.status() | device.advance(now, hand);
     const DeviceState<> measured = device.read(now);
 
-    const auto [torque, motion, parameters, status, work] = step(now, hand, on_arm, tool, measured);
+    const auto [torque, motion, parameters, status, work] = step(now, heard, on_arm, tool, measured);
 
     result.tick.add(work);
     result.status |= beyond_waiting(status);

@@ -83,6 +83,12 @@ struct HandModel {
   double stiffness = 0;  ///< K of the grip, N/m
 };
 
+/// A three-axis force sensor whose frames come 1 to 3 ms apart.
+struct ForceSensorModel {
+  double cross_talk = 0;  ///< what each axis shows of a force along each other one, as a part of it
+  double noise = 0;       ///< standard deviation of each axis, N
+};
+
 /// What a loop sees of a tissue that runs elsewhere.
 struct RemoteTissue {
   Held<ToolState<1>> seen{};
@@ -104,8 +110,9 @@ struct Scene {
   Duration period{};  ///< of the tissue's samples
   Duration delay{};   ///< from taking a sample to seeing it
   RobotKind robot = RobotKind::ideal;
-  std::optional<HandModel> hand;  ///< none: the operator's force is the scene's, whatever the tip does
-  bool playback = false;          ///< the operator's force acts on the tissue alone, not on the arm (7.1)
+  std::optional<HandModel> hand;                   ///< none: the operator's force is the scene's, whatever the tip does
+  std::optional<ForceSensorModel> force_sensor{};  ///< none: the operator's force is known as it is
+  bool playback = false;  ///< the operator's force acts on the tissue alone, not on the arm (7.1)
   Eigen::Vector3d start{0, 0.78539816339744830962, -1.25};  ///< q(0), rad
   /// Section 6.1.4: the tool's spring pulls toward the origin of the base frame, so that y and z move too; they are
   /// sampled and held without prediction, and exact with it.
