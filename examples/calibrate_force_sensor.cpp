@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The calibration of a three-axis force sensor, section 5.3.3 with cross-talk: a matrix from weights in known
 // directions, how well it is known and what it leaves; or the same of a simulated sensor, beside the truth.
-#include "common/calibrate_options.hpp"
-#include "common/calibrate_report.hpp"
-#include "common/calibrate_simulation.hpp"
-#include "common/calibrate_weights.hpp"
 #include "common/output_file.hpp"
+#include "common/weights_file.hpp"
+#include "common/weights_options.hpp"
+#include "common/weights_report.hpp"
+#include "common/weights_simulation.hpp"
 
 #include <exception>
 #include <iostream>
@@ -14,7 +14,7 @@
 int main(int argc, char** argv) {
   using namespace limpid::examples;
   try {
-    const CalibrateOptions options = parse_calibrate_options(argc, argv);
+    const WeightsOptions options = parse_weights_options(argc, argv);
     if (options.exit_code) return *options.exit_code;
     CalibrationFindings found;
     if (options.simulate) found.truth = simulate_weights(options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "calibrate_options.hpp"
+#include "weights_options.hpp"
 
 #include <limpid/device/force_calibration_fit.hpp>
 
@@ -18,6 +18,6 @@ struct SimulatedWeights {
 
 /// The weights of section 5.3.3, -5 to 5 N along x and y and -5 to 8 N along z, each twice, on a sensor with the
 /// sensitivities of Table 5.5 and cross-talk as that section tells: 5 to 10 %, of x on z 85 %.
-[[nodiscard]] SimulatedWeights simulate_weights(const CalibrateOptions& options);
+[[nodiscard]] SimulatedWeights simulate_weights(const WeightsOptions& options);
 
 }  // namespace limpid::examples

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "calibrate_options.hpp"
-#include "calibrate_simulation.hpp"
+#include "weights_options.hpp"
+#include "weights_simulation.hpp"
 
 #include <limpid/device/force_calibration_fit.hpp>
 
@@ -23,6 +23,6 @@ struct CalibrationFindings {
 [[nodiscard]] std::string words_of(const CalibrationFindings& found);
 
 /// Settings of a ForceCalibration by their names, and how good they are.
-[[nodiscard]] nlohmann::ordered_json as_json(const CalibrateOptions& options, const CalibrationFindings& found);
+[[nodiscard]] nlohmann::ordered_json as_json(const WeightsOptions& options, const CalibrationFindings& found);
 
 }  // namespace limpid::examples

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibrate_options.hpp"
+#include "weights_options.hpp"
 
 #include "option_checks.hpp"
 #include "option_values.hpp"
@@ -11,7 +11,7 @@ namespace limpid::examples {
 
 namespace {
 
-void add_options(CLI::App& app, CalibrateOptions& options) {
+void add_options(CLI::App& app, WeightsOptions& options) {
   app.add_option("weights", options.weights,
                  "CSV of dx, dy, dz, load, cx, cy, cz: direction of the force in the sensor's frame, N, counts")
       ->check(CLI::ExistingFile);
@@ -41,10 +41,10 @@ void add_options(CLI::App& app, CalibrateOptions& options) {
 
 }  // namespace
 
-CalibrateOptions parse_calibrate_options(int argc, const char* const* argv) {
+WeightsOptions parse_weights_options(int argc, const char* const* argv) {
   CLI::App app{"The calibration of a three-axis force sensor from weights in known directions.",
                "calibrate_force_sensor"};
-  CalibrateOptions options;
+  WeightsOptions options;
   add_options(app, options);
   try {
     app.parse(argc, argv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibrate_simulation.hpp"
+#include "weights_simulation.hpp"
 
 #include <limpid/device/simulated_force_sensor.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace limpid::examples {
 
-SimulatedWeights simulate_weights(const CalibrateOptions& options) {
+SimulatedWeights simulate_weights(const WeightsOptions& options) {
   SimulatedWeights simulated;
   simulated.counts_per_newton << 1087.4, 75, 9,  //
       -60, -1089.1, 7,                           //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibrate_report.hpp"
+#include "weights_report.hpp"
 
 #include "words.hpp"
 
@@ -64,7 +64,7 @@ std::string words_of(const CalibrationFindings& found) {
   return found.truth ? text + words_of_truth(found) : text;
 }
 
-Json as_json(const CalibrateOptions& options, const CalibrationFindings& found) {
+Json as_json(const WeightsOptions& options, const CalibrationFindings& found) {
   const CalibrationFit<>& fit = found.fit;
   Json json{{"newtons_per_count", as_json(fit.newtons_per_count)},
             {"offset", as_json(fit.offset)},

@@ -7,7 +7,7 @@
 
 namespace limpid::examples {
 
-struct CalibrateOptions {
+struct WeightsOptions {
   std::string weights;  ///< CSV; empty where they are simulated
   bool simulate = false;
   double noise = 0.01;  ///< of a simulated frame, N
@@ -20,6 +20,6 @@ struct CalibrateOptions {
 };
 
 /// Reads the command line of `calibrate_force_sensor`; says on standard error what it refuses and what it would accept.
-[[nodiscard]] CalibrateOptions parse_calibrate_options(int argc, const char* const* argv);
+[[nodiscard]] WeightsOptions parse_weights_options(int argc, const char* const* argv);
 
 }  // namespace limpid::examples

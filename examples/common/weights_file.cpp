@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "calibrate_weights.hpp"
+#include "weights_file.hpp"
 
 #include "number_list.hpp"
 
