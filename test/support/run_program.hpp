@@ -19,9 +19,8 @@ struct ProgramRun {
   [[nodiscard]] bool mentions(const std::string& text) const { return output.find(text) != std::string::npos; }
 };
 
-inline ProgramRun run_program(const std::string& program, const std::string& arguments) {
-  const std::string command = std::string(LIMPID_EXAMPLES_DIR) + "/" + program + " " + arguments + " 2>&1";
-  FILE* pipe = ::popen(command.c_str(), "r");
+inline ProgramRun run_command(const std::string& command) {
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   REQUIRE(pipe != nullptr);
   ProgramRun result{0, {}};
   std::array<char, 256> piece;
@@ -29,6 +28,10 @@ inline ProgramRun run_program(const std::string& program, const std::string& arg
   const int status = ::pclose(pipe);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return result;
+}
+
+inline ProgramRun run_program(const std::string& program, const std::string& arguments) {
+  return run_command(std::string(LIMPID_EXAMPLES_DIR) + "/" + program + " " + arguments);
 }
 
 }  // namespace limpid::test
