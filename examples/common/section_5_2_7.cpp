@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Section 5.2.7: the adaptive controller follows sines on the realistic arm.
 #include "section.hpp"
+#include "tuning_run.hpp"
 
 #include <limpid/control/omni_safety.hpp>
 #include <limpid/control/safety_limiter.hpp>
-#include <limpid/control/slotine_li_adaptive.hpp>
 #include <limpid/device/simulated_omni.hpp>
 
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace limpid::examples {
 
 namespace {
 
 using Joints = Eigen::Vector3d;
-
-// The sines of 5.2.7 about q(0), rad.
-DesiredJoints<3> reference(double t, const Joints& q0) {
-  using std::numbers::pi;
-  const Eigen::Array3d amplitude{pi / 8, pi / 7, pi / 10}, omega{0.6 * pi, 0.4 * pi, 0.46 * pi};
-  const Eigen::Array3d sine = (omega * t).sin(), cosine = (omega * t).cos();
-  return {q0 + Joints(0, 0.1, 0) + (amplitude * cosine).matrix(), (-amplitude * omega * sine).matrix(),
-          (-amplitude * omega * omega * cosine).matrix()};
-}
-
-SlotineLiAdaptive<Omni<>> tuned_controller() {
-  Omni<>::Parameters Gamma;
-  Gamma << 0.01, 0.002, 0.002, 0.0005, 0.001, 0.001, 0.02, 0.02, 0.02;
-  return SlotineLiAdaptive<Omni<>>(
-      {.Lambda = {2.8, 3.0, 1.5}, .Kd = {0.4, 0.28, 0.10}, .Gamma = Gamma, .theta0 = Omni<>::table_5_2()});
-}
 
 struct TrackingRun {
   Joints bound = Joints::Zero();  ///< largest error of each joint once the start has died away, rad
@@ -43,16 +25,16 @@ constexpr Duration settled = std::chrono::seconds{10};
 
 TrackingRun track(double safety_factor) {
   constexpr Duration tick = std::chrono::milliseconds{1}, length = std::chrono::seconds{30};
-  const Joints q0{0, std::numbers::pi / 4, -1.5};
-  SimulatedOmni<> arm({.q0 = reference(0, q0).q, .realism = Realism::realistic});
-  SlotineLiAdaptive<Omni<>> controller = tuned_controller();
+  const Joints q0 = tuning_pose();
+  SimulatedOmni<> arm({.q0 = tuning_reference(0, q0).q, .realism = Realism::realistic});
+  SlotineLiAdaptive<Omni<>> controller = tuned_controller(Omni<>::table_5_2());
   SafetyLimiter<Omni<>> limiter({.safety_factor = safety_factor});
   TrackingRun run;
   Joints applied = Joints::Zero();
   for (Time now{0}; now <= length; now += tick) {
     run.status |= arm.advance(now, Joints::Zero());
     const DeviceState<> measured = arm.read(now);
-    const DesiredJoints<3> wanted = reference(in_seconds(now), q0);
+    const DesiredJoints<3> wanted = tuning_reference(in_seconds(now), q0);
     const auto [tau, status] = controller.update(now, measured.joint_state(), wanted, Joints::Zero(), applied);
     const auto safe = limiter.limit(now, measured.joint_state(), tau, measured.status | status);
     applied = safe.torque.value();
