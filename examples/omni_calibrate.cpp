@@ -5,9 +5,11 @@
 #include "common/calibrate_scale.hpp"
 #include "common/omni_calibration_file.hpp"
 #include "common/output_file.hpp"
+#include "common/usb_calibrate.hpp"
 
 #include <exception>
 #include <iostream>
+#include <stdexcept>
 
 using namespace limpid;
 using namespace limpid::examples;
@@ -26,6 +28,14 @@ std::vector<CalibrationSection> simulated(const CalibrateOptions& options) {
     sections.push_back(tuning_section(evaluate_tuning(task.record()), task.status(), true));
   }
   return sections;
+}
+
+CalibrationSection on_usb([[maybe_unused]] const CalibrateOptions& options) {
+#ifdef LIMPID_EXAMPLES_WITH_USB
+  return tune_on_usb(options);
+#else
+  throw std::runtime_error("--device usb: expected to be built with libusb-1.0, got none when it was");
+#endif
 }
 
 // From what an operator has measured; the other fields of the calibration stay.
@@ -48,10 +58,12 @@ int main(int argc, char** argv) {
     const CalibrateOptions options = parse_calibrate_options(argc, argv);
     if (options.exit_code) return *options.exit_code;
     std::vector<CalibrationSection> sections;
-    if (options.measured.empty()) {
-      sections = simulated(options);
-    } else {
+    if (!options.measured.empty()) {
       sections.push_back(torque_scale(options));
+    } else if (options.usb) {
+      sections.push_back(on_usb(options));
+    } else {
+      sections = simulated(options);
     }
     print_sections(std::cout, sections);
     if (!options.json.empty()) write_file(options.json, as_json(sections));

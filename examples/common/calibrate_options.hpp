@@ -9,9 +9,12 @@
 namespace limpid::examples {
 
 struct CalibrateOptions {
+  bool usb = false;                  ///< a device, and not the simulated one
+  std::string path, id;              ///< of the device on USB; empty: there is only one, and the protocol's own
+  double watchdog = 20;              ///< its, ms
   bool ramps = true, tuning = true;  ///< which procedures
   TuningTask::Settings run{};        ///< of the tuning run
-  std::string calibration;           ///< paths; empty: none
+  std::string calibration;           ///< path; empty: none
   std::string measured, write;       ///< torques to compute the scale from, and the calibration that they give
   std::string json;
   std::optional<int> exit_code;  ///< set where the command line asked for help or was refused (said already)

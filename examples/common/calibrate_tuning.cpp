@@ -12,6 +12,7 @@ namespace limpid::examples {
 namespace {
 
 constexpr Duration tick_length = std::chrono::milliseconds(1);
+constexpr double fading = 2;  // s
 
 // From 0 to 1 over [0, 1], without a step of its first two derivatives; and those.
 struct Rise {
@@ -43,21 +44,30 @@ DesiredJoints<3> TuningTask::wanted(double t) const noexcept {
           s * sines.qddot + 2 * slope / blend * sines.qdot + bend / (blend * blend) * way};
 }
 
-SafetyLimiter<Omni<>>::Result TuningTask::tick(Time now, const DeviceState<3>& seen) noexcept {
+SafetyLimiter<Omni<>>::Result TuningTask::tick(Time now, const DeviceState<3>& seen, Time taken) noexcept {
   if (!std::exchange(begun_, true)) {
     begin_ = now;
+    first_taken_ = taken;
+    last_taken_ = taken - tick_length;
     start_ = seen.q;
   }
-  const double t = in_seconds(now - begin_);
+  const double t = in_seconds(now - begin_), beyond = t - in_seconds(settings_.length);
+  if (beyond > 0) return fade(now, seen, 1 - beyond / fading);
   const DesiredJoints<3> target = wanted(t);
   const auto [tau, said] = controller_.update(now, seen.joint_state(), target, Eigen::Vector3d::Zero(), applied_);
   const auto safe = limiter_.limit(now, seen.joint_state(), tau, seen.status | said);
-  applied_ = safe.torque.value();
+  applied_ = last_ = safe.torque.value();
   status_ |= safe.status;
-  if (record_.size() < record_.capacity()) {
-    record_.push_back({t, seen.q, applied_, seen.q - target.q, controller_.theta_hat()});
+  if (record_.size() < record_.capacity() && std::exchange(last_taken_, taken) != taken) {
+    record_.push_back({in_seconds(taken - first_taken_), seen.q, applied_, seen.q - target.q, controller_.theta_hat()});
   }
   return safe;
+}
+
+// So that the arm does not fall when the run is over.
+SafetyLimiter<Omni<>>::Result TuningTask::fade(Time now, const DeviceState<3>& seen, double part) noexcept {
+  done_ = part <= 0;
+  return limiter_.limit(now, seen.joint_state(), std::max(part, 0.0) * last_, seen.status);
 }
 
 TuningTask simulate_tuning(const TuningTask::Settings& settings) {
@@ -67,7 +77,7 @@ TuningTask simulate_tuning(const TuningTask::Settings& settings) {
   TuningTask task(settings);
   for (Time now{0}; now <= settings.length; now += tick_length) {
     (void)arm.advance(now, Eigen::Vector3d::Zero());
-    (void)arm.write(task.tick(now, arm.read(now)).torque);
+    (void)arm.write(task.tick(now, arm.read(now), now).torque);
   }
   return task;
 }

@@ -16,7 +16,7 @@ namespace limpid::examples {
 
 /// A tick of the tuning run.
 struct TuningSample {
-  double time;             ///< s
+  double time;             ///< by the device's clock, s
   Eigen::Vector3d q;       ///< as measured, rad
   Eigen::Vector3d torque;  ///< that the arm has from this tick to the next, N m
   Eigen::Vector3d error;   ///< q - q_d, rad
@@ -36,22 +36,27 @@ class TuningTask {
   /// @throws std::invalid_argument  where a setting cannot serve
   explicit TuningTask(const Settings& settings);
 
-  /// @realtime  no allocation up to `length` at 1 kHz, no throw
-  [[nodiscard]] SafetyLimiter<Omni<>>::Result tick(Time now, const DeviceState<3>& seen) noexcept;
+  /// @param taken  when the state was taken, by the device's clock: what is recorded is by it, each state once
+  /// @realtime     no allocation up to `length` at 1 kHz, no throw
+  [[nodiscard]] SafetyLimiter<Omni<>>::Result tick(Time now, const DeviceState<3>& seen, Time taken) noexcept;
 
+  /// Whether `length` is over and the torque has faded out, in 2 s.
+  [[nodiscard]] bool done() const noexcept { return done_; }
   [[nodiscard]] const std::vector<TuningSample>& record() const noexcept { return record_; }
   [[nodiscard]] Status status() const noexcept { return status_; }
 
  private:
   [[nodiscard]] DesiredJoints<3> wanted(double t) const noexcept;
+  [[nodiscard]] SafetyLimiter<Omni<>>::Result fade(Time now, const DeviceState<3>& seen, double part) noexcept;
 
   Settings settings_;
   SlotineLiAdaptive<Omni<>> controller_;
   SafetyLimiter<Omni<>> limiter_;
   std::vector<TuningSample> record_;
-  Eigen::Vector3d applied_ = Eigen::Vector3d::Zero(), start_ = Eigen::Vector3d::Zero();
-  Time begin_{};
-  bool begun_ = false;
+  Eigen::Vector3d applied_ = Eigen::Vector3d::Zero();                                 // N m
+  Eigen::Vector3d start_ = Eigen::Vector3d::Zero(), last_ = Eigen::Vector3d::Zero();  // rad; N m of the run's end
+  Time begin_{}, first_taken_{}, last_taken_{};
+  bool begun_ = false, done_ = false;
   Status status_ = Status::ok;
 };
 

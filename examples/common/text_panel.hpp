@@ -27,7 +27,7 @@ struct TextPanelSettings {
 
 /// Shows the newest values of a running loop in a few lines of a terminal, see PanelScreen; a thread of its own draws
 /// them. The destructor draws the last ones and never waits for the terminal.
-/// @tparam Values  what the loop has to show; copied without throwing
+/// @tparam Values  what the loop has to show; assigning it does not throw, said or not
 template <typename Values>
 class TextPanel {
  public:
@@ -48,9 +48,23 @@ class TextPanel {
 
   /// By the loop.
   /// @realtime  no allocation, no throw, no system call
-  void show(const Values& values) noexcept { latest_.write(values); }
+  void show(const Values& values) noexcept { latest_.write({values}); }
 
  private:
+  // Eigen's vectors of fixed size do not throw, and do not say so.
+  struct Held {
+    Values values{};
+
+    Held() = default;
+    Held(const Values& of) : values{of} {}  // NOLINT(*-explicit-*): the same thing
+    Held(const Held&) = default;
+    Held& operator=(const Held& other) noexcept {  // NOLINT(*-unhandled-self-assignment): of its only member
+      values = other.values;
+      return *this;
+    }
+    ~Held() = default;
+  };
+
   void serve(const std::stop_token& stop, Duration period) {
     std::mutex mutex;
     std::condition_variable_any wake;
@@ -63,11 +77,11 @@ class TextPanel {
   }
 
   void draw() {
-    if (latest_.take()) screen_.draw(lines_(latest_.value()));
+    if (latest_.take()) screen_.draw(lines_(latest_.value().values));
   }
 
   Lines lines_;
-  LatestValue<Values> latest_;
+  LatestValue<Held> latest_;
   PanelScreen screen_;
   std::jthread thread_;  // the last: it ends before what it uses
 };

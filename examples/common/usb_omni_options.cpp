@@ -2,6 +2,7 @@
 #include "usb_omni_options.hpp"
 
 #include "omni_calibration_file.hpp"
+#include "option_checks.hpp"
 #include "option_values.hpp"
 
 #include <charconv>
@@ -36,7 +37,16 @@ void add_usb_omni_options(CLI::App& app, UsbOmniOptions& options) {
   app.add_option_function<std::string>("--id", add_identity,
                                        "USB vendor and product of the bridge board; that of pid.codes's tests without")
       ->type_name("VVVV:PPPP");
+  const auto set_watchdog = [&options](double milliseconds) { set_watchdogs(options.link, milliseconds); };
+  app.add_option_function<double>("--watchdog", set_watchdog,
+                                  "ms without commands or states after which the motors go off; 20 without")
+      ->check(within(4, 1000));
   app.add_option("--calibration", options.calibration, "Its calibration, JSON")->type_name("FILE");
+}
+
+void set_watchdogs(UsbLinkSettings& link, double milliseconds) {
+  link.device_watchdog = link.host_watchdog = from_seconds(1e-3 * milliseconds);
+  link.stale_after = link.host_watchdog / 2;
 }
 
 std::optional<UsbIdentity> usb_identity_of(const std::string& text) {

@@ -24,8 +24,11 @@ struct UsbOmniOptions {
   [[nodiscard]] UsbOmni::Settings reading_only() const;
 };
 
-/// --path, --id, --calibration
+/// --path, --id, --calibration, --watchdog
 void add_usb_omni_options(CLI::App& app, UsbOmniOptions& options);
+
+/// How long the loop, and half of it how long the device, may be silent before the motors go off; 4 to 1000 ms.
+void set_watchdogs(UsbLinkSettings& link, double milliseconds);
 
 /// "1209:0001"; nothing where it is none.
 [[nodiscard]] std::optional<UsbIdentity> usb_identity_of(const std::string& text);

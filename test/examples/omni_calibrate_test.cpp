@@ -132,9 +132,9 @@ TEST_CASE("a tuning run ends without torque where a reading is none") {
   TuningTask task({});
   DeviceState<3> seen;
   seen.q = tuning_pose();
-  (void)task.tick(Time{0}, seen);
+  (void)task.tick(Time{0}, seen, Time{0});
   seen.q[1] = std::numeric_limits<double>::quiet_NaN();
-  const auto result = task.tick(std::chrono::milliseconds(1), seen);
+  const auto result = task.tick(std::chrono::milliseconds(1), seen, std::chrono::milliseconds(1));
   CHECK(has(result.status, Status::fault));
   CHECK(result.torque.value() == Eigen::Vector3d::Zero());
 }

@@ -145,6 +145,15 @@ TEST_CASE("a pipe whose reader has gone does not end the program") {
   ::close(pipe[1]);
 }
 
+TEST_CASE("a loop's values come to the terminal") {
+  PseudoTerminal terminal;
+  const LoopValues values{.time = 2s, .position = {0.1, 0, 0}, .ticks = 2000};
+  {
+    TextPanel<LoopValues>([](const LoopValues& of) { return lines_of(of); }, on(terminal)).show(values);
+  }
+  check_clean(terminal, lines_of(values));
+}
+
 TEST_CASE("a loop's position, force, error and misses are shown in units that can be read") {
   const Lines lines = lines_of({.time = 1500ms,
                                 .position = {0.1, -0.02, 0.003},
