@@ -72,7 +72,7 @@ class UsbStream {
   template <std::size_t Length>
   struct Transfer {
     struct Free {
-      void operator()(libusb_transfer* transfer) const noexcept { libusb_free_transfer(transfer); }
+      void operator()(libusb_transfer* made) const noexcept { libusb_free_transfer(made); }
     };
     std::unique_ptr<libusb_transfer, Free> transfer;
     std::array<std::byte, Length> bytes{};
