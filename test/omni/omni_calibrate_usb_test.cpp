@@ -36,15 +36,15 @@ void check_off(const nlohmann::json& omni) {
 
 TEST_CASE("the tuning run goes through on an Omni on USB, within its torques, and finds its friction") {
   const TemporaryFile results("results.json");
-  const auto [program, omni] = calibrate("", "--duration 14 --json " + results.path());
-  CAPTURE(program.output);
-  CHECK(program.code == 0);
-  CHECK(program.mentions("never run on hardware"));
-  check_off(omni);
+  const auto run = calibrate("", "--duration 14 --json " + results.path());
+  CAPTURE(run.program.output);
+  CHECK(run.program.code == 0);
+  CHECK(run.program.mentions("never run on hardware"));
+  check_off(run.omni);
   const double step = 2.0 / 4095;  // of the converter, of full scale
-  CHECK(omni["largest_torque"][0].get<double>() <= 0.3 / 1.3 + 0.3 * step);
-  CHECK(omni["largest_torque"][1].get<double>() <= 0.29 / 1.3 + 0.29 * step);
-  CHECK(omni["largest_torque"][2].get<double>() <= 0.2 / 1.3 + 1.43 * 0.2 * step);
+  CHECK(run.omni["largest_torque"][0].get<double>() <= 0.3 / 1.3 + 0.3 * step);
+  CHECK(run.omni["largest_torque"][1].get<double>() <= 0.29 / 1.3 + 0.29 * step);
+  CHECK(run.omni["largest_torque"][2].get<double>() <= 0.2 / 1.3 + 1.43 * 0.2 * step);
   const auto json = nlohmann::json::parse(results.text(), nullptr, false);
   REQUIRE(json.is_object());
   int found = 0;
@@ -58,12 +58,12 @@ TEST_CASE("the tuning run goes through on an Omni on USB, within its torques, an
 }
 
 TEST_CASE("SIGTERM ends the tuning run with the motors off") {
-  const auto [program, omni] = calibrate(" --terminate-after 5", "");
-  CAPTURE(program.output);
-  CHECK(program.code == 1);
-  CHECK(program.mentions("expected the run to come to its end"));
-  check_off(omni);
-  CHECK(omni["motors_were_on"] == true);
+  const auto run = calibrate(" --terminate-after 5", "");
+  CAPTURE(run.program.output);
+  CHECK(run.program.code == 1);
+  CHECK(run.program.mentions("expected the run to come to its end"));
+  check_off(run.omni);
+  CHECK(run.omni["motors_were_on"] == true);
 }
 
 TEST_CASE("an Omni that is docked, or goes away, ends the tuning run") {

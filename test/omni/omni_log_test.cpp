@@ -43,9 +43,9 @@ Losses losses_of(const std::string& said) {
 
 TEST_CASE("omni_log writes each state once, in order, with the motors off") {
   const TemporaryFile file("omni_log.csv");
-  const auto [program, omni] = with_omni("--docked", "omni_log", "--duration 1 --output " + file.path());
-  CAPTURE(program.output);
-  CHECK(program.code == 0);
+  const auto run = with_omni("--docked", "omni_log", "--duration 1 --output " + file.path());
+  CAPTURE(run.program.output);
+  CHECK(run.program.code == 0);
   const auto rows = rows_of(file.text());
   REQUIRE(rows.size() > 10);
   long gaps = 0;
@@ -59,23 +59,23 @@ TEST_CASE("omni_log writes each state once, in order, with the motors off") {
     REQUIRE(std::stol(rows[i][device_us]) > std::stol(rows[i - 1][device_us]));
     gaps += step - 1;
   }
-  const Losses losses = losses_of(program.output);
+  const Losses losses = losses_of(run.program.output);
   CHECK(losses.rows == static_cast<long>(rows.size()) - 1);
   CHECK(gaps >= losses.unread);  // what was lost on the way after the last row is no gap
   CHECK(gaps <= losses.lost + losses.unread);
   CHECK(rows.back()[calibrated] == "1");
   CHECK(std::stod(rows.back()[q2]) == doctest::Approx(-0.23));  // where the calibration's home has it
-  REQUIRE(omni.is_object());
-  CHECK(omni["motors_were_on"] == false);
+  REQUIRE(run.omni.is_object());
+  CHECK(run.omni["motors_were_on"] == false);
 }
 
 TEST_CASE("the log's joints are those of its calibration") {
   const TemporaryFile file("omni_log.csv"), calibration("omni_log.json");
   std::ofstream(calibration.path()) << R"({"full_scale": [1, 1, 1], "home": [0, 0.5, 0.37]})";
-  const auto [program, omni] = with_omni(
-      "--docked", "omni_log", "--duration 0.3 --output " + file.path() + " --calibration " + calibration.path());
-  CAPTURE(program.output);
-  CHECK(program.code == 0);
+  const auto run = with_omni("--docked", "omni_log",
+                             "--duration 0.3 --output " + file.path() + " --calibration " + calibration.path());
+  CAPTURE(run.program.output);
+  CHECK(run.program.code == 0);
   CHECK(std::stod(rows_of(file.text()).back()[q2]) == doctest::Approx(0.5));
 }
 
@@ -92,20 +92,20 @@ TEST_CASE("counts are written before it was docked, without angles") {
 
 TEST_CASE("SIGTERM ends a log with its rows written") {
   const TemporaryFile file("omni_log.csv");
-  const auto [program, omni] = with_omni("--docked --terminate-after 1", "omni_log", "--output " + file.path());
-  CAPTURE(program.output);
-  CHECK(program.code == 0);
-  CHECK(program.mentions("rows; lost"));
+  const auto run = with_omni("--docked --terminate-after 1", "omni_log", "--output " + file.path());
+  CAPTURE(run.program.output);
+  CHECK(run.program.code == 0);
+  CHECK(run.program.mentions("rows; lost"));
   CHECK(rows_of(file.text()).back().size() == columns);
 }
 
 TEST_CASE("a log goes on where the Omni was unplugged and came back, and tells what was lost") {
   const TemporaryFile file("omni_log.csv");
-  const auto [program, omni] = with_omni("--docked --fault unplug@0.5 --fault plug@0.8 --terminate-after 2.5",
-                                         "omni_log", "--output " + file.path());
-  CAPTURE(program.output);
-  CHECK(program.code == 0);
-  CHECK(program.mentions("disconnects 1"));
+  const auto run = with_omni("--docked --fault unplug@0.5 --fault plug@0.8 --terminate-after 2.5", "omni_log",
+                             "--output " + file.path());
+  CAPTURE(run.program.output);
+  CHECK(run.program.code == 0);
+  CHECK(run.program.mentions("disconnects 1"));
   CHECK(rows_of(file.text()).back()[status] == "ok");
 }
 
