@@ -152,6 +152,7 @@ void EmulatedOmni::deliver(Usbfs& usbfs, const Bytes& frame) {
     return;
   }
   const auto sent = usbfs.send(in, spoiled(frame));
+  seen_.last_frame = frame_.sequence;
   if (sent == Usbfs::Sent::taken) ++seen_.frames_taken;
   if (sent == Usbfs::Sent::replaced) ++seen_.frames_replaced;
 }
@@ -163,6 +164,7 @@ void EmulatedOmni::set(OmniFault fault, int frames) {
     if (usbfs) usbfs->halt(fault == OmniFault::stall_in ? in : out, frames != 0);
     return;  // the host ends it
   }
+  if (fault == OmniFault::out_refused && usbfs) usbfs->refuse(out, frames != 0 ? ENOMEM : 0);
   faults_.set(fault, frames);
 }
 
@@ -172,18 +174,19 @@ void EmulatedOmni::clear_faults() {
   const std::lock_guard lock(mutex_);
   faults_.clear();
   if (const auto usbfs = device_.usbfs()) {
+    usbfs->refuse(out, 0);
     if (usbfs->halted(in)) usbfs->halt(in, false);
     if (usbfs->halted(out)) usbfs->halt(out, false);
   }
 }
 
-void EmulatedOmni::power_up() {
+void EmulatedOmni::power_up(bool counted) {
   board_.power_up();
   track_motors(steady_now());
   clock_ = Time{};
   frame_.sequence = 0;
   last_frame_.clear();
-  ++seen_.boots;
+  if (counted) ++seen_.boots;
 }
 
 void EmulatedOmni::unplug() {
@@ -208,9 +211,9 @@ void EmulatedOmni::plug(const std::optional<std::string>& path, bool at_home) {
   device_.plug(path);
 }
 
-void EmulatedOmni::reboot() {
+void EmulatedOmni::reboot(bool counted) {
   const std::lock_guard lock(mutex_);
-  power_up();
+  power_up(counted);
   arm_.zero_counts();
 }
 

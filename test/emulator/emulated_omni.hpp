@@ -19,6 +19,7 @@ struct OmniSnapshot {
   std::uint64_t frames = 0;           ///< made
   std::uint64_t frames_taken = 0;     ///< of which a waiting transfer took one at once
   std::uint64_t frames_replaced = 0;  ///< of which none came for one before it was too old
+  std::uint32_t last_frame = 0;       ///< sequence of the last one that was not held back
   std::uint64_t commands = 0;         ///< valid ones
   std::uint64_t commands_invalid = 0;
   std::uint64_t commands_refused = 0;  ///< valid ones that wanted motors on while the board refused it
@@ -88,7 +89,9 @@ class EmulatedOmni {
   /// At `path`, or where it was; powered up, with counts from zero where the arm is, or at `home`, as if it were docked
   /// for that moment.
   void plug(const std::optional<std::string>& path = std::nullopt, bool at_home = false);
-  void reboot();  ///< loses power and has it again, too short for the bus to see
+  /// Loses power and has it again, too short for the bus to see.
+  /// @param counted  whether the board knows that
+  void reboot(bool counted = true);
 
  private:
   void run();
@@ -97,7 +100,7 @@ class EmulatedOmni {
   void track_motors(Time when);
   void make_frame(Usbfs* usbfs);
   void deliver(Usbfs& usbfs, const Bytes& frame);
-  void power_up();
+  void power_up(bool counted = true);
   [[nodiscard]] OmniFrame measured() const;
   [[nodiscard]] Bytes spoiled(Bytes frame) const;
 

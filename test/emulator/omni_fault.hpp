@@ -22,6 +22,7 @@ enum class OmniFault {
   protocol_error_out,  ///< EPROTO in place of taking a command
   silence,             ///< no frame comes
   out_stuck,           ///< no command is taken, and its transfer does not end
+  out_refused,         ///< the host's controller takes no transfer to it: ENOMEM
   lost,                ///< every third frame goes lost
   repeated,            ///< every frame comes twice
   stuck,               ///< one frame comes again and again
@@ -31,11 +32,25 @@ enum class OmniFault {
 };
 
 /// Their names, in order.
-inline constexpr std::array<std::string_view, 18> fault_names{
-    "short-packet", "corrupt",   "wrong-magic", "wrong-version",  "wrong-kind",
-    "stall-in",     "stall-out", "babble",      "protocol-error", "protocol-error-out",
-    "silence",      "out-stuck", "lost",        "repeated",       "stuck",
-    "frozen",       "absurd",    "slow"};
+inline constexpr std::array<std::string_view, 19> fault_names{"short-packet",
+                                                              "corrupt",
+                                                              "wrong-magic",
+                                                              "wrong-version",
+                                                              "wrong-kind",
+                                                              "stall-in",
+                                                              "stall-out",
+                                                              "babble",
+                                                              "protocol-error",
+                                                              "protocol-error-out",
+                                                              "silence",
+                                                              "out-stuck",
+                                                              "out-refused",
+                                                              "lost",
+                                                              "repeated",
+                                                              "stuck",
+                                                              "frozen",
+                                                              "absurd",
+                                                              "slow"};
 
 [[nodiscard]] inline std::optional<OmniFault> fault_named(std::string_view name) {
   for (std::size_t i = 0; i < fault_names.size(); ++i)

@@ -25,6 +25,7 @@ int Usbfs::submit(Urb urb) {
   if (!interface) return ENOENT;
   if (const int refused = claim_unlocked(urb.client, *interface, false); refused != 0) return refused;  // as the kernel
   Endpoint& endpoint = endpoints_[urb.endpoint];
+  if (endpoint.refusal != 0) return endpoint.refusal;
   if (endpoint.halted) {
     finish(std::move(urb), EPIPE);
   } else if (is_in(urb.endpoint) && !endpoint.kept.empty()) {
@@ -175,6 +176,11 @@ void Usbfs::halt(std::uint8_t endpoint, bool halted) {
 bool Usbfs::halted(std::uint8_t endpoint) {
   const std::lock_guard lock(mutex_);
   return endpoints_[endpoint].halted;
+}
+
+void Usbfs::refuse(std::uint8_t endpoint, int error) {
+  const std::lock_guard lock(mutex_);
+  endpoints_[endpoint].refusal = error;
 }
 
 void Usbfs::unplug() {

@@ -57,6 +57,8 @@ class Usbfs {
   /// Every transfer of the endpoint ends with EPIPE until the host clears the halt, or `halted` is false again.
   void halt(std::uint8_t endpoint, bool halted);
   [[nodiscard]] bool halted(std::uint8_t endpoint);
+  /// No transfer of the endpoint is taken from the host, but this error given; 0: it is again.
+  void refuse(std::uint8_t endpoint, int error);
   void unplug();  ///< all transfers end with ENODEV, and so does everything that comes later
   [[nodiscard]] bool claimed(unsigned interface);
 
@@ -65,6 +67,7 @@ class Usbfs {
     std::deque<Urb> waiting;
     std::deque<Bytes> kept;
     bool halted = false;
+    int refusal = 0;  // of what is submitted
   };
   static constexpr std::size_t most_kept = 2;
 
