@@ -18,6 +18,17 @@
 
 namespace limpid::test {
 
+/// Waits, at most ten seconds, until the condition holds. @return  whether it does
+template <typename Condition>
+bool comes(Condition&& condition) {
+  const Time end = steady_now() + std::chrono::seconds(10);
+  while (steady_now() < end) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return condition();
+}
+
 /// A machine's USB with a live emulated Omni on it, docked at its start pose, and a loop of about 1 kHz that holds it.
 struct UsbBench {
   using Vector = Eigen::Vector3d;

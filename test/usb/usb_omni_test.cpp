@@ -11,31 +11,31 @@
 #include <stdexcept>
 
 using limpid::SafeTorque, limpid::Status, limpid::UsbCount, limpid::UsbFault, limpid::UsbOmni;
-using limpid::test::UsbBench;
+using limpid::emulator::OmniFault;
+using limpid::test::UsbBench, limpid::test::comes;
 using namespace std::chrono_literals;
 using Vector = Eigen::Vector3d;
-
-namespace {
-
-// Waits, at most ten seconds.
-template <typename Condition>
-bool comes(Condition&& condition) {
-  const auto end = limpid::steady_now() + 10s;
-  while (!condition() && limpid::steady_now() < end) std::this_thread::sleep_for(1ms);
-  return condition();
-}
-
-}  // namespace
 
 TEST_CASE("a UsbOmni keeps the laws of a HapticDevice") {
   UsbBench bench;
   UsbOmni omni(bench.settings());
   REQUIRE(bench.start(omni));
+  // A state or more comes with each pass, and none between two: the suite reads twice and compares.
+  bench.omni.set(OmniFault::silence);
   const auto pass = [&](limpid::Time now) {
     while (limpid::steady_now() < now) std::this_thread::sleep_for(100us);
+    if (!bench.omni.snapshot().plugged) return;
+    const auto states = omni.counters()[UsbCount::states];
+    bench.omni.clear(OmniFault::silence);
+    REQUIRE(comes([&] { return omni.counters()[UsbCount::states] > states; }));
+    bench.omni.set(OmniFault::silence);
+    const auto last = bench.omni.snapshot().last_frame;
+    REQUIRE(comes([&] {
+      (void)omni.read(now);
+      return omni.state().sequence == last;
+    }));
   };
   const auto unplug = [&] {
-    (void)bench.loop(omni, Vector::Zero(), [](const auto&) { return true; });  // all that came until now
     bench.omni.unplug();
     REQUIRE(comes([&] { return omni.counters()[UsbCount::disconnects] > 0; }));
   };
@@ -43,7 +43,9 @@ TEST_CASE("a UsbOmni keeps the laws of a HapticDevice") {
 }
 
 TEST_CASE("an Omni that was docked and drawn out gives its angles") {
-  UsbBench bench;
+  auto emulated = UsbBench::docked_at_start();
+  emulated.docked = false;
+  UsbBench bench(emulated);
   UsbOmni omni(bench.settings());
   CHECK(limpid::has(omni.read(limpid::steady_now()).status, Status::no_sample));
   REQUIRE(bench.start(omni));
@@ -121,7 +123,10 @@ TEST_CASE("the motors are off when a UsbOmni ends, in whatever way") {
 
 TEST_CASE("a loop that gives no command has its motors taken off, until that is cleared") {
   UsbBench bench;
-  UsbOmni omni(bench.settings());
+  auto settings = bench.settings();
+  settings.link.device_watchdog = 1s;
+  settings.link.host_watchdog = 200ms;  // the first, whatever else the machine does
+  UsbOmni omni(settings);
   const Vector wanted(0.05, 0.05, 0.02);
   REQUIRE(bench.start(omni, wanted));
   CHECK(comes([&] { return !bench.omni.snapshot().motors_on; }));
