@@ -12,7 +12,7 @@ namespace limpid {
 enum class UsbCount : std::size_t {
   states,       ///< new and whole
   lost,         ///< states that the device numbered and that never came
-  repeated,     ///< states that came again, or out of order: dropped
+  repeated,     ///< states that came again: dropped
   damaged,      ///< frames with another length, header or checksum, or with values that cannot be: dropped
   in_errors,    ///< transfers from the device that failed
   out_errors,   ///< transfers to it that failed or took too long

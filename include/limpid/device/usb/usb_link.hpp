@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <limpid/core/expect.hpp>
 #include <limpid/core/latest_value.hpp>
 #include <limpid/core/status.hpp>
 #include <limpid/core/time.hpp>
 #include <limpid/device/usb/usb_counters.hpp>
 #include <limpid/device/usb/usb_device.hpp>
 #include <limpid/device/usb/usb_fault.hpp>
+#include <limpid/device/usb/usb_link_settings.hpp>
 #include <limpid/device/usb/usb_protocol.hpp>
 #include <limpid/device/usb/usb_stream.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -18,25 +19,12 @@
 #include <optional>
 #include <span>
 #include <stop_token>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include <pthread.h>
 #include <sched.h>
 
 namespace limpid {
-
-struct UsbLinkSettings {
-  std::string path{};                                        ///< of the device, "1-2.4"; empty: there is only one
-  std::vector<UsbIdentity> identities{};                     ///< of the devices to serve; empty: the protocol's
-  Duration device_watchdog = std::chrono::milliseconds(20);  ///< what the device is told, 1 ms to 1 s
-  Duration host_watchdog = std::chrono::milliseconds(20);    ///< between commands of the loop, 2 ms to 1 s
-  Duration stale_after = std::chrono::milliseconds(10);      ///< without a new state, 2 ms to 1 s
-  Duration poll = std::chrono::microseconds(250);            ///< how often a new command is looked for, 50 us to 1 ms
-  int priority = 0;  ///< SCHED_FIFO of the thread that serves libusb, 1 to 99, where permitted; 0: as its maker
-  Duration search_every = std::chrono::milliseconds(100);  ///< for a device that went away, 10 ms to 10 s
-};
 
 /// What the loop reads of a device.
 template <typename State>
@@ -44,8 +32,10 @@ struct UsbReading {
   State state{};                      ///< the newest
   Time stamp{};                       ///< when it came, by `steady_now`
   std::uint64_t count = 0;            ///< of states up to this one
+  std::uint32_t opening = 0;          ///< of the device: with another one, it may have begun anew or be another device
   bool fresh = false;                 ///< whether it came since the last reading
   Status status = Status::no_sample;  ///< no_sample, stale, disconnected, fault
+  UsbFault fault = UsbFault::none;    ///< that is latched and was not cleared
 };
 
 /// A device on USB that says and hears protocol P, by libusb-1.0: a thread of its own handles all that libusb does, and
@@ -56,6 +46,8 @@ struct UsbReading {
 /// sends what takes its motors off, latches the fault and drops all commands until `clear` was called and all is well
 /// again. A device that went away is looked for, opened again, and has its motors off. The destructor takes them off,
 /// twice.
+///
+/// A fault has a number, and `clear` is for the one that `read` told last: what was latched since then stays.
 /// @realtime  read, write, fault, clear: no allocation, no throw, no system call. All else is not for the loop
 template <UsbProtocol P>
 class UsbLink {
@@ -67,7 +59,7 @@ class UsbLink {
   /// Opens the device.
   /// @throws std::invalid_argument  where a setting cannot serve
   /// @throws UsbError               where no device, or more than one, can be opened
-  explicit UsbLink(const UsbLinkSettings& settings = {}) : settings_{checked(settings)}, context_{make_usb_context()} {
+  explicit UsbLink(const UsbLinkSettings& settings = {}) : settings_{settings.checked()}, context_{make_usb_context()} {
     if (settings_.identities.empty()) settings_.identities.assign(P::identities.begin(), P::identities.end());
     open();
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
@@ -83,27 +75,31 @@ class UsbLink {
     reading.state = received.state;
     reading.stamp = received.stamp;
     reading.count = received.count;
+    reading.opening = received.opening;
+    told_ = latched_.load(std::memory_order_acquire);
+    reading.fault = told_.number == cleared_ ? UsbFault::none : told_.reason;
     reading.status = when(received.count == 0, Status::no_sample) |
                      when(received.count > 0 && elapsed(now, received.stamp) > settings_.stale_after, Status::stale) |
-                     when(!connected(), Status::disconnected) | when(fault() != UsbFault::none, Status::fault);
+                     when(!connected(), Status::disconnected) | when(told_.reason != UsbFault::none, Status::fault);
     return reading;
   }
 
   /// By the loop: to be sent; the newest replaces what was not sent yet.
   /// @return  disconnected, fault: it will not be sent
   Status write(const Command& command) noexcept {
-    orders_.write({command, arming_, true});
+    orders_.write({command, cleared_, true});
     return when(!connected(), Status::disconnected) | when(fault() != UsbFault::none, Status::fault);
   }
 
-  /// By the loop: ends a latched fault, deliberately, once its cause has gone; until then it stays. Motors are off
-  /// until the next command.
+  /// By the loop: ends the fault that the last reading told of, deliberately, once its cause has gone; until then it
+  /// comes again. Motors are off until the next command. Without such a fault nothing changes.
   void clear() noexcept {
-    ++arming_;
-    orders_.write({P::safe(), arming_, false});
+    if (told_.reason == UsbFault::none || told_.number == cleared_) return;
+    cleared_ = told_.number;
+    orders_.write({P::safe(), cleared_, false});
   }
 
-  [[nodiscard]] UsbFault fault() const noexcept { return fault_.load(std::memory_order_acquire); }
+  [[nodiscard]] UsbFault fault() const noexcept { return latched_.load(std::memory_order_acquire).reason; }
   [[nodiscard]] bool connected() const noexcept { return connected_.load(std::memory_order_acquire); }
   /// Whether its thread was given the priority that was asked for; false before it has begun.
   [[nodiscard]] bool realtime() const noexcept { return realtime_.load(std::memory_order_acquire); }
@@ -114,26 +110,18 @@ class UsbLink {
     State state{};
     Time stamp{};
     std::uint64_t count = 0;
+    std::uint32_t opening = 0;
   };
+  struct Latched {
+    UsbFault reason = UsbFault::none;
+    std::uint32_t number = 0;  // of faults up to this one, or to the last one
+  };
+  static_assert(std::atomic<Latched>::is_always_lock_free);
   struct Order {
     Command command = P::safe();
-    std::uint32_t arming = 0;  // how often the loop had cleared a fault
-    bool live = false;         // whether it is the loop's, and not what `clear` leaves
+    std::uint32_t cleared = 0;  // number of the fault that the loop has cleared last
+    bool live = false;          // whether it is the loop's, and not what `clear` leaves
   };
-
-  static UsbLinkSettings checked(const UsbLinkSettings& settings) {
-    using namespace std::chrono_literals;
-    const auto within = [](Duration value, Duration least, Duration most, const char* field, const char* words) {
-      expect(value >= least && value <= most, std::string("UsbLink: ") + field, words, value);
-    };
-    within(settings.device_watchdog, 1ms, 1s, "device_watchdog", "from 1 ms to 1 s");
-    within(settings.host_watchdog, 2ms, 1s, "host_watchdog", "from 2 ms to 1 s");
-    within(settings.stale_after, 2ms, 1s, "stale_after", "from 2 ms to 1 s");
-    within(settings.poll, 50us, 1ms, "poll", "from 50 us to 1 ms");
-    expect(settings.priority >= 0 && settings.priority <= 99, "UsbLink: priority", "from 0 to 99", settings.priority);
-    within(settings.search_every, 10ms, 10s, "search_every", "from 10 ms to 10 s");
-    return settings;
-  }
 
   void open() {
     const auto present = list_usb_devices(context_.get());
@@ -141,6 +129,7 @@ class UsbLink {
                                               P::interface_number);
     handle->prepare(P::init());
     last_state_.reset();
+    ++opening_;
     state_at_ = heard_at_ = steady_now();
     stream_ = std::make_unique<detail::UsbStream<P>>(context_.get(), std::move(handle), counters_,
                                                      [this](std::span<const std::byte> bytes) { receive(bytes); });
@@ -156,7 +145,7 @@ class UsbLink {
     const auto poll = std::chrono::duration_cast<std::chrono::microseconds>(settings_.poll);
     while (!stop.stop_requested()) {
       if (!stream_) {
-        search();
+        search(stop);
         continue;
       }
       stream_->handle_events(poll);
@@ -182,49 +171,62 @@ class UsbLink {
     }
   }
 
+  // Whatever was wrong before, this is more.
   void lose() noexcept {
     connected_.store(false, std::memory_order_release);
     counters_.add(UsbCount::disconnects);
     latch(UsbFault::disconnected);
+    renumber(UsbFault::disconnected);
     stream_.reset();
   }
 
-  void search() noexcept {
-    std::this_thread::sleep_for(settings_.search_every);
+  void search(const std::stop_token& stop) noexcept {
+    const Time next = later(steady_now(), settings_.search_every);
+    while (steady_now() < next) {
+      if (stop.stop_requested()) return;
+      std::this_thread::sleep_for(std::min<Duration>(settings_.search_every, std::chrono::milliseconds(10)));
+    }
     timeval now{};
     (void)libusb_handle_events_timeout_completed(context_.get(), &now, nullptr);
-    (void)orders_.take();  // what the loop wanted meanwhile
-    seen_arming_ = orders_.value().arming;
-    required_arming_ = seen_arming_ + 1;
     try {
       open();
     } catch (const std::exception&) {
       stream_.reset();  // not there yet, or not yet ours: again later
     }
+    (void)orders_.take();  // what the loop wanted meanwhile
+    renumber(UsbFault::disconnected);
   }
 
   void receive(std::span<const std::byte> bytes) noexcept {
     const auto frame = P::decode(bytes);
     if (frame.fault == FrameFault::empty) return;
     if (frame.fault != FrameFault::none) return counters_.add(UsbCount::damaged);
-    const Time now = steady_now();
     const std::uint32_t steps = last_state_ ? P::steps(*last_state_, frame.state) : 1;
-    const bool backwards = steps == 0 || steps > backwards_from;
-    // A device that has begun to count anew is believed once it is stale.
-    if (backwards && elapsed(now, state_at_) < settings_.stale_after) return counters_.add(UsbCount::repeated);
-    if (!backwards) counters_.add(UsbCount::lost, steps - 1);
+    if (steps == 0) return counters_.add(UsbCount::repeated);
+    if (steps > backwards_from) {
+      begin_anew();
+    } else {
+      counters_.add(UsbCount::lost, steps - 1);
+    }
     counters_.add(UsbCount::states);
     last_state_ = frame.state;
-    state_at_ = now;
-    states_.write({frame.state, now, ++count_});
+    state_at_ = steady_now();
+    states_.write({frame.state, state_at_, ++count_, opening_});
+  }
+
+  // USB brings frames in their order: a device whose numbers go back has begun to count again.
+  void begin_anew() noexcept {
+    ++opening_;
+    latch(UsbFault::power_cycled);
+    renumber(UsbFault::power_cycled);
   }
 
   void take_order(Time now) noexcept {
     if (!orders_.take()) return;
     const Order& order = orders_.value();
-    seen_arming_ = order.arming;
-    if (fault() != UsbFault::none && order.arming >= required_arming_) {
-      fault_.store(UsbFault::none, std::memory_order_release);
+    if (const Latched is = latched_.load(std::memory_order_relaxed);
+        is.reason != UsbFault::none && order.cleared == is.number) {
+      latched_.store({UsbFault::none, is.number}, std::memory_order_release);
       heard_at_ = now;  // the watch below latches again where nothing has changed
     }
     ordered_at_ = now;
@@ -233,7 +235,7 @@ class UsbLink {
   }
 
   void watch(Time now) noexcept {
-    if (stream_->arrived() != arrived_ || sent_at_ < heard_at_) {
+    if (stream_->arrived() != arrived_ || tried_at_ < heard_at_) {
       arrived_ = stream_->arrived();
       heard_at_ = now;
     }
@@ -245,10 +247,14 @@ class UsbLink {
   void latch(UsbFault reason) noexcept {
     if (fault() != UsbFault::none) return;
     counters_.add(UsbCount::faults);
-    required_arming_ = seen_arming_ + 1;
     watching_ = false;  // from the next command on, again
     due_ = true;        // what takes the motors off
-    fault_.store(reason, std::memory_order_release);
+    renumber(reason);
+  }
+
+  // The fault is another one for the loop, which what it has cleared until now does not end.
+  void renumber(UsbFault reason) noexcept {
+    latched_.store({reason, latched_.load(std::memory_order_relaxed).number + 1}, std::memory_order_release);
   }
 
   // The loop's newest command, or what takes the motors off; that again and again, where there is none of the loop's.
@@ -258,6 +264,7 @@ class UsbLink {
     if (!due_ && (allowed && !P::polled)) return;
     if (!due_ && elapsed(now, sent_at_) < again) return;
     const Command& command = allowed ? orders_.value().command : safe_;
+    tried_at_ = now;
     if (!stream_->send(P::encode(command, sequence_ + 1, settings_.device_watchdog))) {
       if (due_ && allowed) counters_.add(UsbCount::dropped);
       due_ = due_ && !allowed;  // what takes the motors off is tried until it goes
@@ -275,18 +282,21 @@ class UsbLink {
   UsbCounters counters_;
   LatestValue<Received> states_;
   LatestValue<Order> orders_;
-  std::atomic<UsbFault> fault_{UsbFault::none};
+  std::atomic<Latched> latched_{};
   std::atomic<bool> connected_{false}, realtime_{false};
-  std::uint32_t arming_ = 0;  // the loop's
+
+  // The loop's.
+  Latched told_{};             // by the last reading
+  std::uint32_t cleared_ = 0;  // number of the fault that it has cleared last
 
   // The thread's.
   UsbContext context_;
   std::unique_ptr<detail::UsbStream<P>> stream_;
   std::optional<State> last_state_;
   Command safe_ = P::safe();
-  Time state_at_{}, ordered_at_{}, sent_at_{}, heard_at_{};
+  Time state_at_{}, ordered_at_{}, tried_at_{}, sent_at_{}, heard_at_{};
   std::uint64_t count_ = 0, arrived_ = 0;
-  std::uint32_t sequence_ = 0, seen_arming_ = 0, required_arming_ = 0;
+  std::uint32_t sequence_ = 0, opening_ = 0;
   bool watching_ = false;  // whether the loop has given a command since the last fault
   bool due_ = false;       // something new is to be sent
 

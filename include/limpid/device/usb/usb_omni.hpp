@@ -61,7 +61,7 @@ class UsbOmni {
     now_ = now;
     const auto reading = link_.read(now);
     if (reading.count != taken_) take(reading);
-    if (now >= clearing_until_) latch(link_.fault());
+    if (reading.fault != fault_) latch(reading.fault);
     seen_.status = reading.status | when(!docked_at_, Status::no_sample) |
                    when(fault_ != UsbFault::none, Status::fault) |
                    when(fault_ == UsbFault::disconnected, Status::disconnected);
@@ -71,7 +71,8 @@ class UsbOmni {
   /// What the motors are to give until the next call.
   /// @return  limited: they give less, or nothing; disconnected, fault: nothing
   Status write(const SafeTorque<3>& torque) noexcept {
-    motors_on_ = fault_ == UsbFault::none && link_.fault() == UsbFault::none && docked_at_ && !newest_.docked;
+    motors_on_ =
+        fault_ == UsbFault::none && link_.fault() == UsbFault::none && docked_at_ && !newest_.docked && !refuses();
     if (!motors_on_) {
       ramp_from_ = now_;
       return link_.write(OmniBridge::safe()) | Status::limited | when(fault_ != UsbFault::none, Status::fault);
@@ -85,12 +86,13 @@ class UsbOmni {
   /// Why the motors are off; `none` in normal work.
   [[nodiscard]] UsbFault fault() const noexcept { return fault_; }
 
-  /// Ends a fault, deliberately, once its cause has gone; until then it comes again. A device that was unplugged or
-  /// without power must be docked once more.
+  /// Ends the fault that was read, deliberately, once its cause has gone; until then it comes again. A device that was
+  /// unplugged or without power must be docked once more. Without a fault nothing changes.
   void clear_fault() noexcept {
     link_.clear();
+    if (fault_ == UsbFault::none) return;
     fault_ = UsbFault::none;
-    clearing_until_ = later(now_, longest_clearing);
+    ramp_from_ = now_;
   }
 
   /// Whether the angles are known: it has been docked.
@@ -110,16 +112,17 @@ class UsbOmni {
     return settings;
   }
 
-  static constexpr Duration longest_clearing = std::chrono::milliseconds(5);  // until the link has heard of it
-
   void take(const UsbReading<OmniBridge::State>& reading) noexcept {
     const OmniBridge::State before = newest_;
-    const bool first = taken_ == 0;
+    const bool follows = taken_ > 0 && reading.opening == opening_;
     newest_ = reading.state;
     taken_ = reading.count;
-    if (!first && newest_.boots != before.boots) latch(UsbFault::power_cycled);
-    if (newest_.watchdog_off && motors_on_) latch(UsbFault::watchdog_off);
-    const Duration step = std::chrono::microseconds(newest_.device_time - before.device_time);
+    opening_ = reading.opening;
+    const Duration step =
+        follows ? Duration(std::chrono::microseconds(newest_.device_time - before.device_time)) : Duration::zero();
+    if (!follows) docked_at_.reset();
+    if (follows && newest_.boots != before.boots) latch(UsbFault::power_cycled);
+    if (refuses() && motors_on_) latch(UsbFault::watchdog_off);
     if (newest_.docked) {
       docked_at_ = newest_.encoder;
       rates_ = rates_at_rest_;
@@ -135,7 +138,7 @@ class UsbOmni {
     seen_.qdot = rates_.update(device_clock_, seen_.q.array()).value;
     seen_.gimbal = settings_.calibration.gimbal(newest_.gimbal_a, newest_.gimbal_b);
     seen_.buttons = (newest_.pressed[0] ? 1U : 0U) | (newest_.pressed[1] ? 2U : 0U);
-    seen_.stamp = std::min(stamp, now_);  // it may have come after `now` was taken
+    seen_.stamp = std::max(seen_.stamp, std::min(stamp, now_));  // it may have come after `now` was taken
   }
 
   // Whether an encoder has turned faster since a state so long ago than a joint can.
@@ -151,16 +154,20 @@ class UsbOmni {
   // Of the torque, since the motors were off.
   [[nodiscard]] double risen_to(Time now) const noexcept {
     if (settings_.ramp == Duration::zero()) return 1;
-    return std::min(1.0, in_seconds(elapsed(now, ramp_from_)) / in_seconds(settings_.ramp));
+    return std::clamp(in_seconds(elapsed(now, ramp_from_)) / in_seconds(settings_.ramp), 0.0, 1.0);
   }
 
-  // What makes the angles doubtful asks for the dock again.
+  // Until it has heard a command with motors off.
+  [[nodiscard]] bool refuses() const noexcept { return newest_.watchdog_off || newest_.refuses; }
+
+  static constexpr bool asks_for_dock(UsbFault reason) noexcept {
+    return reason == UsbFault::disconnected || reason == UsbFault::power_cycled || reason == UsbFault::encoder_jumped;
+  }
+
+  // What makes the angles doubtful asks for the dock again, whatever was wrong before it, and is stated in its place.
   void latch(UsbFault reason) noexcept {
-    if (reason == UsbFault::none || fault_ != UsbFault::none) return;
-    fault_ = reason;
-    if (reason == UsbFault::disconnected || reason == UsbFault::power_cycled || reason == UsbFault::encoder_jumped) {
-      docked_at_.reset();
-    }
+    if (asks_for_dock(reason)) docked_at_.reset();
+    if (fault_ == UsbFault::none || asks_for_dock(reason)) fault_ = reason;
   }
 
   Settings settings_;
@@ -171,7 +178,8 @@ class UsbOmni {
   OmniBridge::State newest_{};
   std::optional<std::array<std::int16_t, 3>> docked_at_;  // the encoders, where it was docked last
   std::uint64_t taken_ = 0;
-  Time now_{}, device_clock_{}, ramp_from_{}, clearing_until_{};
+  std::uint32_t opening_ = 0;
+  Time now_{}, device_clock_{}, ramp_from_{};
   UsbFault fault_ = UsbFault::none;
   bool motors_on_ = false;
 };
