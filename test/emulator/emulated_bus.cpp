@@ -156,12 +156,14 @@ EmulatedBus::Plugged::~Plugged() {
 }  // namespace limpid::emulator
 
 // GLib's locks are futexes of its own, which the thread sanitizer does not see: what one of its threads hands to
-// another looks unguarded. Reports with a frame in these libraries are left out; a callback from there has none.
+// another looks unguarded. libudev takes some random bytes for its tables, once for all threads. Reports with a frame
+// in these libraries are left out; a callback from there has none.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
 
 extern "C" const char* __tsan_default_suppressions() {  // NOLINT
   return "race:libglib-2.0.so.0\n"
          "race:libgobject-2.0.so.0\n"
          "race:libgio-2.0.so.0\n"
-         "race:libumockdev.so.0\n";
+         "race:libumockdev.so.0\n"
+         "race:libudev.so.1\n";
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 using limpid::Status, limpid::UsbCount, limpid::UsbFault, limpid::UsbOmni;
@@ -114,13 +115,21 @@ TEST_CASE("a halt of an endpoint is cleared, and a few bad frames are borne") {
   UsbBench bench;
   UsbOmni omni(bench.settings());
   REQUIRE(bench.start(omni, wanted));
-  for (const OmniFault fault : {OmniFault::stall_in, OmniFault::stall_out, OmniFault::corrupt, OmniFault::babble}) {
-    bench.omni.set(fault, 1);
-    const auto states = omni.counters()[UsbCount::states];
-    CHECK(bench.loop(omni, wanted, [&](const auto&) { return omni.counters()[UsbCount::states] > states + 40; }));
+  const std::vector<std::pair<OmniFault, UsbCount>> faults{{OmniFault::stall_in, UsbCount::halts},
+                                                           {OmniFault::stall_out, UsbCount::halts},
+                                                           {OmniFault::corrupt, UsbCount::damaged},
+                                                           {OmniFault::babble, UsbCount::in_errors}};
+  for (const auto& [fault, count] : faults) {
+    CAPTURE(static_cast<int>(fault));
+    const auto before = omni.counters()[count], states = omni.counters()[UsbCount::states];
+    CHECK(bench.loop(omni, wanted, [&, left = 0](const auto&) mutable {
+      if (omni.counters()[count] > before) return omni.counters()[UsbCount::states] > states + 40;
+      if (left-- == 0) {
+        bench.omni.set(fault, 1);  // once more, where the machine was too slow to take that frame
+        left = 100;
+      }
+      return false;
+    }));
   }
   CHECK(omni.fault() == UsbFault::none);
-  CHECK(omni.counters()[UsbCount::halts] >= 2);  // one of each endpoint
-  CHECK(omni.counters()[UsbCount::damaged] >= 1);
-  CHECK(omni.counters()[UsbCount::in_errors] >= 1);
 }
