@@ -29,6 +29,8 @@ EmulatedOmni::EmulatedOmni(EmulatedBus& bus, const Settings& settings)
     : device_{bus, usb_of(settings), settings.plugged}, arm_{settings.arm}, home_{settings.arm.home} {
   seen_.boots = settings.boots;
   seen_.docked = settings.docked;
+  frame_.sequence = settings.sequence;
+  clock_ = settings.uptime;
   set_gimbal(settings.gimbal);
   thread_ = std::thread([this] { run(); });
 }

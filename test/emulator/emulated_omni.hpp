@@ -64,6 +64,8 @@ class EmulatedOmni {
     Eigen::Vector3d gimbal = Eigen::Vector3d::Zero();  ///< device gimbal angles, rad
     bool docked = false;
     std::uint16_t boots = 1;
+    std::uint32_t sequence = 0;  ///< of the frame before the first
+    Duration uptime{};           ///< by the device's clock, at the start
   };
 
   EmulatedOmni(EmulatedBus& bus, const Settings& settings);

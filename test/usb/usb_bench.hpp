@@ -18,10 +18,10 @@
 
 namespace limpid::test {
 
-/// Waits, at most ten seconds, until the condition holds. @return  whether it does
+/// Waits, at most half a minute, until the condition holds. @return  whether it does
 template <typename Condition>
 bool comes(Condition&& condition) {
-  const Time end = steady_now() + std::chrono::seconds(10);
+  const Time end = steady_now() + std::chrono::seconds(30);
   while (steady_now() < end) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -63,11 +63,11 @@ struct UsbBench {
     return limiter.limit(now, seen.joint_state(), wanted, Status::ok).torque;
   }
 
-  /// Loops at about 1 kHz until `done(seen)` holds, or for ten seconds.
+  /// Loops at about 1 kHz until `done(seen)` holds, or for half a minute.
   /// @return  whether it held
   template <typename Done>
   bool loop(UsbOmni& device, const Vector& wanted, Done&& done) {
-    const Time end = steady_now() + std::chrono::seconds(10);
+    const Time end = steady_now() + std::chrono::seconds(30);
     while (steady_now() < end) {
       const Time now = steady_now();
       const auto seen = device.read(now);

@@ -121,6 +121,37 @@ TEST_CASE("the motors are off when a UsbOmni ends, in whatever way") {
   CHECK(after.watchdog_trips_with_torque == 0);  // it was told so, and did not have to find out
 }
 
+TEST_CASE("the motors are off when a UsbOmni ends whose endpoints are halted") {
+  UsbBench bench;
+  auto settings = bench.settings();
+  settings.link.device_watchdog = 1s;
+  {
+    UsbOmni omni(settings);
+    REQUIRE(bench.start(omni, Vector(0.05, 0.05, 0.02)));
+    bench.omni.set(OmniFault::stall_in);
+    bench.omni.set(OmniFault::stall_out);
+  }
+  const auto after = bench.omni.snapshot();
+  CHECK(!after.motors_on);
+  CHECK(after.watchdog_trips_with_torque == 0);
+}
+
+TEST_CASE("numbers and a clock that wrap are borne") {
+  auto emulated = UsbBench::docked_at_start();
+  emulated.sequence = 0xFFFF'FFFFU - 700;  // it wraps after 0.7 s
+  emulated.uptime = std::chrono::microseconds(0x1'0000'0000 - 900'000);
+  UsbBench bench(emulated);
+  UsbOmni omni(bench.settings());
+  const Vector wanted(0.03, 0.05, 0.02);
+  REQUIRE(bench.start(omni, wanted));
+  CHECK(bench.loop(omni, wanted, [&](const auto&) {
+    const auto& state = omni.state();
+    return state.sequence > 400 && state.sequence < 1U << 31U && state.device_time < 1U << 31U;
+  }));
+  CHECK(omni.fault() == UsbFault::none);
+  CHECK(bench.omni.snapshot().motors_on);
+}
+
 TEST_CASE("a loop that gives no command has its motors taken off, until that is cleared") {
   UsbBench bench;
   auto settings = bench.settings();
