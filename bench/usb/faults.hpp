@@ -4,6 +4,7 @@
 #include <limpid/core/time.hpp>
 #include <limpid/device/usb/usb_fault.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +28,7 @@ struct FaultRow {
   std::vector<UsbFault> expected;  ///< any of them is to be stated; none: it is borne, torque stays
   bool stated = true;              ///< whether there is somebody left to state anything
   std::vector<FaultRun> runs{};
+  std::size_t without_torque{};  ///< attempts that had none at the onset, such as after a fault of the machine's making
 
   [[nodiscard]] bool borne() const { return stated && expected.empty(); }
 };

@@ -154,7 +154,9 @@ void print(const UsbResults& results) {
                 count_of(row, [](const FaultRun& run) { return run.restarted; }), row.runs.size());
     print_spread(row, &FaultRun::to_stated);
     print_spread(row, &FaultRun::to_zero);
-    std::printf("  %s\n", stated_by(row).c_str());
+    std::printf("  %s", stated_by(row).c_str());
+    if (row.without_torque > 0) std::printf("; %zu more attempts had no torque to take away", row.without_torque);
+    std::printf("\n");
   }
 }
 
@@ -192,7 +194,9 @@ std::string as_json(const UsbResults& results, const std::vector<UsbFinding>& fi
   json["stream"]["age_ns"] = quantiles(results.stream.age);
   json["stream"]["lateness_ns"] = quantiles(results.stream.lateness);
   for (const FaultRow& row : results.faults) {
-    Json& runs = json["faults"][words(row.name)];
+    Json& entry = json["faults"][words(row.name)];
+    entry["attempts_without_torque"] = row.without_torque;
+    Json& runs = entry["runs"];
     for (const FaultRun& run : row.runs) {
       runs.push_back({{"began", run.began},
                       {"stated", describe(run.stated)},
