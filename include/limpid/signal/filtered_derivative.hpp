@@ -64,7 +64,7 @@ class FilteredDerivative {
  private:
   void set_step(Duration step) noexcept {
     using std::expm1;
-    const Scalar h = in_seconds<Scalar>(step);
+    const auto h = in_seconds<Scalar>(step);
     step_ = step;
     rate_ = Scalar{1} / h;
     part_ = -expm1(-h / tau_);

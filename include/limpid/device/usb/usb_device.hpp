@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <span>
 #include <string>
@@ -49,9 +48,12 @@ struct UsbPresence {
 
 /// "1209:0001".
 [[nodiscard]] inline std::string describe(const UsbIdentity& identity) {
-  std::array<char, 16> text{};
-  (void)std::snprintf(text.data(), text.size(), "%04x:%04x", identity.vendor, identity.product);
-  return text.data();
+  std::string text;
+  for (const std::uint16_t number : {identity.vendor, identity.product}) {
+    for (unsigned place = 4; place-- > 0;) text += "0123456789abcdef"[number >> (4 * place) & 0xFU];
+    if (text.size() == 4) text += ':';
+  }
+  return text;
 }
 
 /// What is plugged in now, without opening anything.
@@ -142,6 +144,8 @@ class UsbHandle {
   }
   UsbHandle(const UsbHandle&) = delete;
   UsbHandle& operator=(const UsbHandle&) = delete;
+  UsbHandle(UsbHandle&&) = delete;
+  UsbHandle& operator=(UsbHandle&&) = delete;
 
   [[nodiscard]] libusb_device_handle* get() const noexcept { return handle_.get(); }
   [[nodiscard]] const std::string& path() const noexcept { return path_; }

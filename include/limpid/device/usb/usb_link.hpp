@@ -64,8 +64,11 @@ class UsbLink {
     open();
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
   }
+  ~UsbLink() = default;
   UsbLink(const UsbLink&) = delete;
   UsbLink& operator=(const UsbLink&) = delete;
+  UsbLink(UsbLink&&) = delete;
+  UsbLink& operator=(UsbLink&&) = delete;
 
   /// By the loop. @param now  by `steady_now`
   [[nodiscard]] Reading read(Time now) noexcept {

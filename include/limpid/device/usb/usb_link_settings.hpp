@@ -15,7 +15,7 @@ struct UsbLinkSettings {
   std::string path{};                                        ///< of the device, "1-2.4"; empty: there is only one
   std::vector<UsbIdentity> identities{};                     ///< of the devices to serve; empty: the protocol's
   Duration device_watchdog = std::chrono::milliseconds(20);  ///< what the device is told, 1 ms to 1 s
-  Duration host_watchdog = std::chrono::milliseconds(20);    ///< between commands of the loop, 2 ms to 1 s
+  Duration host_watchdog = std::chrono::milliseconds(15);    ///< between commands of the loop, 2 ms to 1 s
   Duration stale_after = std::chrono::milliseconds(10);      ///< without a new state, 2 ms to 1 s
   Duration poll = std::chrono::microseconds(250);            ///< how often a new command is looked for, 50 us to 1 ms
   int priority = 0;  ///< SCHED_FIFO of the thread that serves libusb, 1 to 99, where permitted; 0: as its maker

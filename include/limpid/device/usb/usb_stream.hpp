@@ -37,6 +37,8 @@ class UsbStream {
   ~UsbStream() { stop(); }
   UsbStream(const UsbStream&) = delete;
   UsbStream& operator=(const UsbStream&) = delete;
+  UsbStream(UsbStream&&) = delete;
+  UsbStream& operator=(UsbStream&&) = delete;
 
   /// Whether the device has gone away.
   [[nodiscard]] bool gone() const noexcept { return gone_; }
