@@ -21,9 +21,10 @@ esac
   libeigen3-dev=/usr/include/eigen3/Eigen/Core libboost-dev=/usr/include/boost/hana.hpp \
   doctest-dev=/usr/include/doctest/doctest.h libbenchmark-dev=/usr/include/benchmark/benchmark.h \
   libcli11-dev=/usr/include/CLI/CLI.hpp nlohmann-json3-dev=/usr/include/nlohmann/json.hpp \
-  coinor-csdp=csdp \
-  pkg-config=pkg-config libusb-1.0-0-dev=/usr/include/libusb-1.0/libusb.h \
-  libumockdev-dev=/usr/include/umockdev-1.0/umockdev.h
+  coinor-csdp=csdp
+# Of devices on USB, which nothing else needs.
+.ci/install pkg-config=pkg-config libusb-1.0-0-dev=/usr/include/libusb-1.0/libusb.h \
+  libumockdev-dev=/usr/include/umockdev-1.0/umockdev.h || echo "Without these the tests of devices on USB are left out"
 
 export CMAKE_GENERATOR=Ninja
 CTEST_PARALLEL_LEVEL=$(nproc)
