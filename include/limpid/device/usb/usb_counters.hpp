@@ -10,15 +10,15 @@ namespace limpid {
 
 /// What a UsbLink counts from its start on.
 enum class UsbCount : std::size_t {
-  states,       ///< new and whole
-  lost,         ///< states that the device numbered and that never came
-  repeated,     ///< states that came again: dropped
-  damaged,      ///< frames with another length, header or checksum, or with values that cannot be: dropped
-  in_errors,    ///< transfers from the device that failed
-  out_errors,   ///< transfers to it that failed or took too long
-  commands,     ///< sent, and arrived
-  dropped,      ///< commands of the loop that found both transfers busy, or came while a fault was latched
-  halts,        ///< of an endpoint, cleared
+  states,      ///< new and whole
+  lost,        ///< states that the device numbered and that never came
+  repeated,    ///< states that came again: dropped
+  damaged,     ///< frames with another length, header or checksum, or with values that cannot be: dropped
+  in_errors,   ///< transfers from the device that failed
+  out_errors,  ///< transfers to it that failed or took too long
+  commands,    ///< sent, and arrived
+  dropped,  ///< commands of the loop that a newer one replaced before it went, or that came while a fault was latched
+  halts,    ///< of an endpoint, cleared
   disconnects,  ///< the device went away
   faults,       ///< latched
 };

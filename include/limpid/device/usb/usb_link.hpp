@@ -151,15 +151,20 @@ class UsbLink {
         search(stop);
         continue;
       }
+      serving_ = true;
       stream_->handle_events(poll);
-      const Time now = steady_now();
-      take_order(now);
-      watch(now);
-      send_due(now);
+      serve_loop(steady_now());
       if (stream_->gone()) lose();
     }
+    serving_ = false;
     if (stream_) leave();
     stream_.reset();
+  }
+
+  void serve_loop(Time now) noexcept {
+    take_order(now);
+    watch(now);
+    send_due(now);
   }
 
   // Motors off, twice.
@@ -215,6 +220,8 @@ class UsbLink {
     last_state_ = frame.state;
     state_at_ = steady_now();
     states_.write({frame.state, state_at_, ++count_, opening_});
+    // Here too: libusb may go from one event to the next for milliseconds before it returns.
+    if (serving_ && stream_) serve_loop(state_at_);
   }
 
   // USB brings frames in their order: a device whose numbers go back has begun to count again.
@@ -232,6 +239,7 @@ class UsbLink {
       latched_.store({UsbFault::none, is.number}, std::memory_order_release);
       heard_at_ = now;  // the watch below latches again where nothing has changed
     }
+    if (due_ && watching_ && fault() == UsbFault::none) counters_.add(UsbCount::dropped);  // the one before it
     ordered_at_ = now;
     watching_ = watching_ || order.live;
     due_ = true;
@@ -268,11 +276,8 @@ class UsbLink {
     if (!due_ && elapsed(now, sent_at_) < again) return;
     const Command& command = allowed ? orders_.value().command : safe_;
     tried_at_ = now;
-    if (!stream_->send(P::encode(command, sequence_ + 1, settings_.device_watchdog))) {
-      if (due_ && allowed) counters_.add(UsbCount::dropped);
-      due_ = due_ && !allowed;  // what takes the motors off is tried until it goes
-      return;
-    }
+    // Where both transfers are busy, again at the next poll, with what is the newest then.
+    if (!stream_->send(P::encode(command, sequence_ + 1, settings_.device_watchdog))) return;
     if (due_ && !allowed && watching_) counters_.add(UsbCount::dropped);
     ++sequence_;
     sent_at_ = now;
@@ -300,6 +305,7 @@ class UsbLink {
   Time state_at_{}, ordered_at_{}, tried_at_{}, sent_at_{}, heard_at_{};
   std::uint64_t count_ = 0, arrived_ = 0;
   std::uint32_t sequence_ = 0, opening_ = 0;
+  bool serving_ = false;   // neither ending nor before the first event
   bool watching_ = false;  // whether the loop has given a command since the last fault
   bool due_ = false;       // something new is to be sent
 
