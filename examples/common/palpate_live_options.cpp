@@ -26,6 +26,9 @@ std::optional<LiveSettings> live_of(const CLI::App& app, const TypedLive& typed,
   if (!usb && !typed.realtime) return {};
   const std::string with = usb ? " with --device usb" : " with --realtime";
   if (usb && typed.calibration.empty()) refuse("--device", "usb goes with --calibration FILE: the torque scale");
+  if (usb && !scene.playback) {
+    refuse("--device", "usb goes with --playback: no sensor tells the force of a hand on the device");
+  }
   if (usb && app.count("--robot") > 0) refuse("--robot", "chooses the simulated one");
   if (predictors != 1) refuse("--predictor", "accepts one" + with + ", got " + std::to_string(predictors));
   if (scene.hand) refuse("--operator", "accepts force" + with);

@@ -62,7 +62,33 @@ class LiveTicks {
     if (::isatty(STDERR_FILENO) == 1) panel_.emplace(lines_of, TextPanelSettings{.descriptor = STDERR_FILENO});
   }
 
+  // What the tissue throws ends the run, with motors off.
   Status tick(const TickTime& at) noexcept {
+    try {
+      return follow(at);
+    } catch (const std::exception& error) {
+      (void)device_.write({});
+      failure_ = error.what();
+      return Status::fault;
+    }
+  }
+
+  PalpationResult result(const RealtimeReport& loop) {
+    (void)device_.write({});
+    if (!failure_.empty()) throw std::runtime_error(failure_);
+    LiveReport& live = result_.live.emplace();
+    live.loop = loop;
+    live.samples = tissue_.samples();
+    live.without_force = tissue_.faded();
+    live.device = device_.report();
+    panel_.reset();
+    constexpr auto waiting = static_cast<std::uint32_t>(Status::no_sample);
+    result_.status = static_cast<Status>(static_cast<std::uint32_t>(loop.status) & ~waiting);
+    return std::move(result_);
+  }
+
+ private:
+  Status follow(const TickTime& at) {
     if (!begin_ && !device_.settle(at.now)) return Status::ok;
     if (!begin_) begin_ = at.now;
     const Time now = at.now - *begin_;
@@ -85,19 +111,6 @@ class LiveTicks {
     return status;
   }
 
-  PalpationResult result(const RealtimeReport& loop) {
-    LiveReport& live = result_.live.emplace();
-    live.loop = loop;
-    live.samples = tissue_.samples();
-    live.without_force = tissue_.faded();
-    live.device = device_.report();
-    panel_.reset();
-    constexpr auto waiting = static_cast<std::uint32_t>(Status::no_sample);
-    result_.status = static_cast<Status>(static_cast<std::uint32_t>(loop.status) & ~waiting);
-    return std::move(result_);
-  }
-
- private:
   void show(std::uint64_t missed) noexcept {
     missed_ += missed;
     const TracePoint& last = result_.trace.back();
@@ -129,6 +142,7 @@ class LiveTicks {
   HandSensor sensor_;
   std::optional<Time> begin_;
   std::uint64_t missed_ = 0;
+  std::string failure_;
   PalpationResult result_;
   std::optional<TextPanel<Shown>> panel_;
 };

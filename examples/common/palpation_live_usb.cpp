@@ -39,7 +39,10 @@ class UsbLive : public LiveDevice {
 
   void prepare(const std::stop_token& stop) override {
     wait(stop, "put the stylus into its dock", [&] { return omni_.calibrated(); });
-    wait(stop, "draw the stylus out, hold it where the wall is to be", [&] { return !omni_.docked(); });
+    wait(stop, "draw the stylus out, hold it still where the wall is to be", [&] {
+      if (omni_.docked() || joints_.qdot.norm() > 0.05) moved_at_ = steady_now();  // rad/s
+      return steady_now() - moved_at_ > 500ms;
+    });
     well_since_ = steady_now();
   }
 
@@ -58,10 +61,12 @@ class UsbLive : public LiveDevice {
   // Once it has been without a fault for as long as a link needs to find one.
   bool settle(Time now) noexcept override {
     joints_ = omni_.read(now).joint_state();
-    if (omni_.fault() != UsbFault::none) {
+    const bool while_made = omni_.fault() == UsbFault::loop_silent || omni_.fault() == UsbFault::stale;
+    if (while_made) {
       omni_.clear_fault();
       well_since_ = now;
     }
+    if (omni_.fault() != UsbFault::none) return true;  // any other ends the run in its first tick
     (void)omni_.write({});
     began_ = now;
     last_count_ = omni_.states();
@@ -70,13 +75,14 @@ class UsbLive : public LiveDevice {
 
   DeviceState<> read(Time now, const Eigen::Vector3d&) noexcept override {
     const Time begin = steady_now();
-    const DeviceState<> seen = omni_.read(now);
+    DeviceState<> seen = omni_.read(now);
     call_ = steady_now() - begin;
     const std::uint64_t count = omni_.states();
     used_ += count > last_count_ ? 1 : 0;
     came_ += count - last_count_;
     last_count_ = count;
     joints_ = seen.joint_state();
+    seen.status |= when(!omni_.calibrated() || omni_.docked(), Status::fault);  // angles or motors that are not there
     return seen;
   }
 
@@ -127,7 +133,7 @@ class UsbLive : public LiveDevice {
   std::array<Time, 64> stamps_{};  // of the last states, while it waited
   std::size_t next_stamp_ = 0;
   Duration call_{};
-  Time well_since_{}, began_{}, ended_{};
+  Time moved_at_{steady_now()}, well_since_{}, began_{}, ended_{};
   std::uint64_t last_count_ = 0, used_ = 0, came_ = 0;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limpid/device/usb/omni_calibration.hpp>
+#include <limpid/robot/omni.hpp>
 
 #include "support/no_allocation.hpp"
 
@@ -38,7 +39,14 @@ Vector3d torque_of(const std::array<std::uint16_t, 3>& converter) {
 
 TEST_CASE("a docked arm is at its home angles, by (5.1)") {
   const Vector3d q = calibration.joints({100, -200, 300}, {100, -200, 300});
-  CHECK((q - Vector3d(0, -0.23, 0.37 + 0.23 - pi / 2)).norm() < 1e-15);
+  CHECK((q - Vector3d(0, 0.23, -0.37 - 0.23 - pi / 2)).norm() < 1e-15);
+}
+
+TEST_CASE("a docked arm is within the limits of its joints") {
+  const Vector3d q = calibration.joints({0, 0, 0}, {0, 0, 0});
+  const auto limits = limpid::Omni<>{}.limits();
+  CHECK((q.array() >= limits.lower.array()).all());
+  CHECK((q.array() <= limits.upper.array()).all());
 }
 
 TEST_CASE("counts turn the joints by (5.1): the first and the second against their sense, the third with both") {

@@ -23,7 +23,7 @@ class EmulatedArm {
     Realism realism = Realism::realistic;
     OperatorCoupling coupling = OperatorCoupling::on_arm;
     Vector full_scale = Vector(0.3, 0.29, 0.2);  ///< command torque at u = 1, N m
-    Vector home = Vector(0, -0.23, 0.37);        ///< device joint angles where the counts were zero, rad
+    Vector home = Vector(0, 0.23, -0.37);        ///< device joint angles where the counts were zero, rad
     Force force{};
   };
 

@@ -44,7 +44,8 @@ TEST_CASE("a live run's prediction is that of the simulated run, as far as its s
 
 TEST_CASE("options of a live run that contradict each other are refused by name") {
   refused("--device usb --predictor model", "--device");
-  refused("--device usb --predictor model --robot ideal --calibration /dev/null", "--robot");
+  refused("--device usb --predictor model --playback --robot ideal --calibration /dev/null", "--robot");
+  refused("--device usb --predictor model --calibration /dev/null", "--playback");
   refused("--calibration /dev/null", "--calibration");
   refused("--usb-path 1-1", "--usb-path");
   refused("--realtime", "--predictor");
@@ -56,8 +57,8 @@ TEST_CASE("options of a live run that contradict each other are refused by name"
 TEST_CASE("a calibration without a torque scale, or that is none, is refused by its field") {
   const auto path = std::filesystem::temp_directory_path() / ("limpid_calibration_" + std::to_string(::getpid()));
   std::ofstream(path) << R"({"home": [0, 0, 0]})";
-  refused("--device usb --predictor model --calibration " + path.string(), "full_scale");
+  refused("--device usb --predictor model --playback --calibration " + path.string(), "full_scale");
   std::ofstream(path) << "[";
-  refused("--device usb --predictor model --calibration " + path.string(), path.string());
+  refused("--device usb --predictor model --playback --calibration " + path.string(), path.string());
   std::filesystem::remove(path);
 }

@@ -64,7 +64,7 @@ TEST_CASE("omni_log writes each state once, in order, with the motors off") {
   CHECK(gaps >= losses.unread);  // what was lost on the way after the last row is no gap
   CHECK(gaps <= losses.lost + losses.unread);
   CHECK(rows.back()[calibrated] == "1");
-  CHECK(std::stod(rows.back()[q2]) == doctest::Approx(-0.23));  // where the calibration's home has it
+  CHECK(std::stod(rows.back()[q2]) == doctest::Approx(0.23));  // where the calibration's home has it
   REQUIRE(run.omni.is_object());
   CHECK(run.omni["motors_were_on"] == false);
 }

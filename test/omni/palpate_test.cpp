@@ -56,7 +56,7 @@ TEST_CASE("without a device palpate says what it looked for") {
   const TemporaryFile calibration("palpate_calibration.json");
   write_calibration(calibration);
   const auto run = with_omni(machine + " --vendor 4097", "palpate",
-                             "--device usb --predictor hold --calibration " + calibration.path())
+                             "--device usb --predictor hold --playback --calibration " + calibration.path())
                        .program;
   CHECK(run.code == 1);
   CHECK(run.mentions("expected a device 1209:0001 to be plugged in, got none"));

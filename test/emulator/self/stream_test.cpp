@@ -37,10 +37,10 @@ TEST_CASE("its counts are those of the pose from home") {
   Session session;
   const auto frame = session.frame();
   REQUIRE(frame);
-  // device angles (0, pi/4, -1.25 + pi/4 + pi/2) less (0, -0.23, 0.37), in 15000ths of a turn
+  // device angles (0, pi/4, -1.25 + pi/4 + pi/2) less (0, 0.23, -0.37), in 15000ths of a turn
   CHECK(frame->counts[0] == 0);
-  CHECK(frame->counts[1] == -2424);
-  CHECK(frame->counts[2] == 1758);
+  CHECK(frame->counts[1] == -1326);
+  CHECK(frame->counts[2] == 3524);
 }
 
 TEST_CASE("a command moves the arm, and its motors are off once no command comes") {

@@ -9,7 +9,7 @@
 namespace limpid {
 
 /// CRC-32 of IEEE 802.3: polynomial 04C11DB7, reflected, started and ended with all bits inverted; of the nine bytes
-/// "123456789" it is CBF43926. Every error of up to 32 bits in a row, and of up to 5 bits anywhere in 64 bytes, changes
+/// "123456789" it is CBF43926. Every error of up to 32 bits in a row, and of up to 4 bits anywhere in 64 bytes, changes
 /// it.
 /// @realtime  no allocation, no throw; a table of 1 kB
 [[nodiscard]] constexpr std::uint32_t crc32(std::span<const std::byte> bytes) noexcept {

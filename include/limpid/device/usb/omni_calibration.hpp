@@ -27,7 +27,7 @@ struct OmniCalibration {
 
   /// Torque command (5.5) at the end of the converters' range, N m, > 0.
   Vector full_scale = Vector::Constant(std::numeric_limits<double>::quiet_NaN());
-  Vector home{0, -0.23, 0.37};               ///< the device's joint angles where it docks, before (5.1), rad
+  Vector home{0, 0.23, -0.37};               ///< the device's joint angles where it docks, before (5.1), rad
   Vector counts_sign{1, -1, 1};              ///< 1 or -1
   double counts_per_turn = 15'000;           ///< > 0
   Vector gimbal_slope{5.48, -5.28, 4.76};    ///< of the gimbal's angles by A/(A + B), rad

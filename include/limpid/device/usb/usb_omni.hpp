@@ -77,6 +77,7 @@ class UsbOmni {
       ramp_from_ = now_;
       return link_.write(OmniBridge::safe()) | Status::limited | when(fault_ != UsbFault::none, Status::fault);
     }
+    if (torque.value().isZero(0)) ramp_from_ = now_;  // the way up begins with the first torque
     OmniBridge::Command command{.motors_on = true};
     const double risen = risen_to(now_);
     const double part = settings_.calibration.convert(risen * torque.value(), command.converter);
