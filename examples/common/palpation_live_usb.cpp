@@ -58,16 +58,14 @@ class UsbLive : public LiveDevice {
     return from_seconds(std::atan2(y, x) / turn) + tick / 2;
   }
 
-  // Once it has been without a fault for as long as a link needs to find one.
+  // Motors off, until the first tick; once it has been without a fault for as long as a link needs to find one.
   bool settle(Time now) noexcept override {
     joints_ = omni_.read(now).joint_state();
-    const bool while_made = omni_.fault() == UsbFault::loop_silent || omni_.fault() == UsbFault::stale;
-    if (while_made) {
+    if (omni_.fault() == UsbFault::stale) {
       omni_.clear_fault();
       well_since_ = now;
     }
     if (omni_.fault() != UsbFault::none) return true;  // any other ends the run in its first tick
-    (void)omni_.write({});
     began_ = now;
     last_count_ = omni_.states();
     return now - well_since_ > 50ms;
@@ -110,6 +108,7 @@ class UsbLive : public LiveDevice {
   }
 
  private:
+  // Without a command of the loop the motors are off.
   template <typename Condition>
   void wait(const std::stop_token& stop, const std::string& what_for, Condition&& condition) {
     bool said = false;
@@ -117,10 +116,10 @@ class UsbLive : public LiveDevice {
       const DeviceState<> seen = omni_.read(steady_now());
       joints_ = seen.joint_state();
       stamps_[next_stamp_++ % stamps_.size()] = seen.stamp;
-      (void)omni_.write({});
       if (condition()) return;
       if (!said && omni_.states() > 0) std::cerr << "waiting: " << what_for << '\n';
       said = said || omni_.states() > 0;
+      if (omni_.fault() == UsbFault::stale) omni_.clear_fault();
       if (omni_.fault() != UsbFault::none)
         throw std::runtime_error("--device usb: " + std::string(describe(omni_.fault())));
       std::this_thread::sleep_for(1ms);

@@ -43,7 +43,7 @@ TEST_CASE("palpate presses through an Omni on USB, and says how the device kept 
   // a machine that holds the loop up for longer than the watchdogs ends the run, with a reason
   if (of["fault"].get<bool>()) {
     CHECK(run.code == 2);
-    CHECK(run.mentions("motors off"));
+    CHECK(run.mentions("latched a fault"));
     MESSAGE("a busy machine: " << of["live"]["usb"]["fault"]);
   } else {
     CHECK(run.code == 0);
