@@ -4,8 +4,8 @@
 #include "hand_sensor.hpp"
 #include "live_device.hpp"
 #include "live_tissue.hpp"
+#include "loop_panel.hpp"
 #include "text_panel.hpp"
-#include "words.hpp"
 
 #include <limpid/loop/realtime/periodic_loop.hpp>
 #include <limpid/loop/realtime/stop_on_signal.hpp>
@@ -18,7 +18,6 @@
 #include <stop_token>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <unistd.h>
 
@@ -30,20 +29,6 @@ PeriodicSettings settings_of(const Scene& scene) {
   return {.period = scene.tick,
           .origin = scene.device->grid(scene.tick),
           .thread = {.priority = scene.live->priority, .lock_memory = scene.live->lock_memory}};
-}
-
-// What a person at the terminal sees of a tick.
-struct Shown {
-  double time = 0, force = 0, predicted = 0, tip = 0, error = 0;  // s, N, m
-  std::uint64_t missed = 0;                                       // ticks
-  bool felt = true;                                               // the tissue is there
-};
-
-std::vector<std::string> lines_of(const Shown& shown) {
-  return {words("time %8.2f s    force %7.3f N    deadlines missed %llu", shown.time, shown.force,
-                static_cast<unsigned long long>(shown.missed)),
-          words("tool %8.3f mm   tip %8.3f mm   total error %.3g", 1e3 * shown.predicted, 1e3 * shown.tip, shown.error),
-          shown.felt ? "" : "the tissue gives no samples: its force is away"};
 }
 
 // One tick after another; no exception leaves it.
@@ -59,7 +44,9 @@ class LiveTicks {
         wall_{wall_of(scene)},
         sensor_(scene) {
     result_.trace.reserve(static_cast<std::size_t>(scene.duration / scene.tick + 2));
-    if (::isatty(STDERR_FILENO) == 1) panel_.emplace(lines_of, TextPanelSettings{.descriptor = STDERR_FILENO});
+    if (::isatty(STDERR_FILENO) == 1)
+      panel_.emplace([](const LoopValues& values) { return lines_of(values); },
+                     TextPanelSettings{.descriptor = STDERR_FILENO});
   }
 
   // What the tissue throws ends the run, with motors off.
@@ -114,7 +101,13 @@ class LiveTicks {
   void show(std::uint64_t missed) noexcept {
     missed_ += missed;
     const TracePoint& last = result_.trace.back();
-    panel_->show({last.time, last.force, last.predicted, last.tip, last.total_error, missed_, tissue_.factor() > 0});
+    panel_->show({.time = from_seconds(last.time),
+                  .position = wall_ + Eigen::Vector3d(last.tip, 0, 0),
+                  .force = {last.force, 0, 0},
+                  .error = std::abs(last.tip - last.ideal),
+                  .ticks = result_.trace.size(),
+                  .missed = missed_,
+                  .status = when(tissue_.factor() < 1, Status::stale)});
   }
 
   void note(Time now, double F_h, const ToolState<3>& tool, const LoopTick& made) {
@@ -144,7 +137,7 @@ class LiveTicks {
   std::uint64_t missed_ = 0;
   std::string failure_;
   PalpationResult result_;
-  std::optional<TextPanel<Shown>> panel_;
+  std::optional<TextPanel<LoopValues>> panel_;
 };
 
 }  // namespace

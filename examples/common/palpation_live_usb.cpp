@@ -2,7 +2,7 @@
 // The Omni on USB; without libusb at build time only a sentence.
 #include "live_device.hpp"
 
-#ifdef LIMPID_EXAMPLES_USB
+#ifdef LIMPID_EXAMPLES_WITH_USB
 
 #include <limpid/device/arm_hardware.hpp>
 #include <limpid/device/usb/usb_omni.hpp>

@@ -37,11 +37,11 @@ std::vector<std::string> lines_of(const TuningValues& values) {
     (void)std::snprintf(text.data(), text.size(), "%-8s %8.4f %8.4f %8.4f %s", name, of[0], of[1], of[2], unit);
     return std::string(text.data());
   };
-  const char* todo = values.phase == Phase::running ? "the run: let the stylus go, Ctrl-C ends it"
-                     : values.phase == Phase::held  ? "hold the stylus: it begins"
-                     : values.calibrated            ? "draw the stylus out, and hold it"
-                                                    : "dock the stylus";
-  return {todo, row("q", values.q, "rad"), row("torque", values.torque, "N m"),
+  const char* prompt = values.phase == Phase::running ? "the run: let the stylus go, Ctrl-C ends it"
+                       : values.phase == Phase::held  ? "hold the stylus: it begins"
+                       : values.calibrated            ? "draw the stylus out, and hold it"
+                                                      : "dock the stylus";
+  return {prompt, row("q", values.q, "rad"), row("torque", values.torque, "N m"),
           "missed   " + std::to_string(values.missed) + ", " + limpid::describe(values.status)};
 }
 

@@ -41,11 +41,11 @@ struct UsbReading {
 /// A device on USB that says and hears protocol P, by libusb-1.0: a thread of its own handles all that libusb does, and
 /// exchanges the newest state and command with the loop, which never waits and never calls the system.
 ///
-/// A command goes out within `poll`. The device has its own watchdog, which this needs; where the loop gives no command
-/// for `host_watchdog`, no state comes for `stale_after`, no command gets through, or the device goes away, the link
-/// sends what takes its motors off, latches the fault and drops all commands until `clear` was called and all is well
-/// again. A device that went away is looked for, opened again, and has its motors off. The destructor takes them off,
-/// twice.
+/// A command goes out as the next state comes, or as `poll` says. The device has its own watchdog, which this needs;
+/// where the loop gives no command for `host_watchdog`, no state comes for `stale_after`, no command gets through, or
+/// the device goes away, the link sends what takes its motors off, latches the fault and drops all commands until
+/// `clear` was called and all is well again. A device that went away is looked for, opened again, and has its motors
+/// off. The destructor takes them off, twice.
 ///
 /// A fault has a number, and `clear` is for the one that `read` told last: what was latched since then stays.
 /// @realtime  read, write, fault, clear: no allocation, no throw, no system call. All else is not for the loop

@@ -17,7 +17,8 @@ struct UsbLinkSettings {
   Duration device_watchdog = std::chrono::milliseconds(20);  ///< what the device is told, 1 ms to 1 s
   Duration host_watchdog = std::chrono::milliseconds(15);    ///< between commands of the loop, 2 ms to 1 s
   Duration stale_after = std::chrono::milliseconds(10);      ///< without a new state, 2 ms to 1 s
-  Duration poll = std::chrono::microseconds(250);            ///< how often a new command is looked for, 50 us to 1 ms
+  Duration poll = std::chrono::microseconds(
+      250);  ///< without a state, until a new command is looked for, 50 us to 1 ms; libusb may wait for a whole ms
   int priority = 0;  ///< SCHED_FIFO of the thread that serves libusb, 1 to 99, where permitted; 0: as its maker
   Duration search_every = std::chrono::milliseconds(100);  ///< for a device that went away, 10 ms to 10 s
 

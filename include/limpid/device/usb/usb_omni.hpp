@@ -32,7 +32,8 @@ namespace limpid {
 /// watchdog, a device that was without power, and an encoder that turns faster than a joint can. Who calls
 /// `clear_fault` sees to it that the loop begins anew where the arm is: SafetyLimiter::reset. Angles and rates are by
 /// the device's own clock.
-/// @realtime  read, write: no allocation, no throw, no system call; some 100 ns
+/// @realtime  read, write: no allocation, no throw, no system call; .5 and .2 us in half of the ticks on a busy machine
+/// (bench/usb)
 class UsbOmni {
  public:
   using Scalar = double;

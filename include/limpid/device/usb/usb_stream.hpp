@@ -42,7 +42,6 @@ class UsbStream {
 
   /// Whether the device has gone away.
   [[nodiscard]] bool gone() const noexcept { return gone_; }
-  [[nodiscard]] const std::string& path() const noexcept { return handle_->path(); }
 
   /// Commands that arrived since the stream began.
   [[nodiscard]] std::uint64_t arrived() const noexcept { return arrived_; }
